@@ -1,0 +1,139 @@
+//! Simple polygons without holes: footprints and room outlines.
+
+use super::{Pose, Vec2, cross, distance_to_segment, segment_distance, segments_touch, vec2};
+
+/// A simple polygon, counter-clockwise, its last corner joined to the first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polygon {
+    corners: Vec<Vec2>,
+}
+
+impl Polygon {
+    /// A polygon from its corners in either order; they are turned counter-clockwise.
+    pub fn new(mut corners: Vec<Vec2>) -> Self {
+        if signed_area(&corners) < 0.0 {
+            corners.reverse();
+        }
+        Self { corners }
+    }
+
+    /// A rectangle centred on `pose`, `length` along its heading, `width` across, metres.
+    pub fn rectangle(pose: Pose, length: f64, width: f64) -> Self {
+        let (l, w) = (length / 2.0, width / 2.0);
+        Self::new([vec2(-l, -w), vec2(l, -w), vec2(l, w), vec2(-l, w)].map(|c| pose.to_world(c)).to_vec())
+    }
+
+    /// A regular polygon with `sides` corners inscribed in an ellipse of the given axes, metres.
+    pub fn ellipse(pose: Pose, length: f64, width: f64, sides: usize) -> Self {
+        let corner = |i: usize| {
+            let angle = std::f64::consts::TAU * i as f64 / sides as f64;
+            pose.to_world(vec2(length / 2.0 * angle.cos(), width / 2.0 * angle.sin()))
+        };
+        Self::new((0..sides).map(corner).collect())
+    }
+
+    /// The corners, counter-clockwise.
+    pub fn corners(&self) -> &[Vec2] {
+        &self.corners
+    }
+
+    /// The edges as pairs of corners, counter-clockwise.
+    pub fn edges(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
+        let n = self.corners.len();
+        (0..n).map(move |i| (self.corners[i], self.corners[(i + 1) % n]))
+    }
+
+    /// Square metres.
+    pub fn area(&self) -> f64 {
+        signed_area(&self.corners)
+    }
+
+    /// The centre of area.
+    pub fn centroid(&self) -> Vec2 {
+        let mut sum = Vec2::zeros();
+        for (a, b) in self.edges() {
+            sum += (a + b) * cross(a, b);
+        }
+        sum / (6.0 * self.area())
+    }
+
+    /// The lowest and highest x and y.
+    pub fn bounds(&self) -> (Vec2, Vec2) {
+        let start = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
+        self.corners.iter().fold(start, |(low, high), c| (low.inf(c), high.sup(c)))
+    }
+
+    /// Whether `point` lies inside or on the border.
+    pub fn contains(&self, point: Vec2) -> bool {
+        let mut inside = false;
+        for (a, b) in self.edges() {
+            if (a.y > point.y) != (b.y > point.y) && point.x < (b.x - a.x) * (point.y - a.y) / (b.y - a.y) + a.x {
+                inside = !inside;
+            }
+        }
+        inside || self.edges().any(|(a, b)| distance_to_segment(point, a, b) < 1e-9)
+    }
+
+    /// Whether the two share a point.
+    pub fn touches(&self, other: &Self) -> bool {
+        self.edges().any(|(a, b)| other.edges().any(|(c, d)| segments_touch(a, b, c, d)))
+            || self.contains(other.corners[0])
+            || other.contains(self.corners[0])
+    }
+
+    /// Metres between the two areas, zero when they share a point.
+    pub fn distance(&self, other: &Self) -> f64 {
+        if self.touches(other) {
+            return 0.0;
+        }
+        let gaps = self.edges().flat_map(|(a, b)| other.edges().map(move |(c, d)| segment_distance(a, b, c, d)));
+        gaps.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Metres from the area to `point`, zero inside.
+    pub fn distance_to(&self, point: Vec2) -> f64 {
+        if self.contains(point) {
+            return 0.0;
+        }
+        self.edges().map(|(a, b)| distance_to_segment(point, a, b)).fold(f64::INFINITY, f64::min)
+    }
+}
+
+fn signed_area(corners: &[Vec2]) -> f64 {
+    (0..corners.len()).map(|i| cross(corners[i], corners[(i + 1) % corners.len()])).sum::<f64>() / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(x: f64, y: f64) -> Polygon {
+        Polygon::rectangle(Pose::new(x, y, 0.0), 1.0, 1.0)
+    }
+
+    #[test]
+    fn corners_are_turned_counter_clockwise() {
+        let clockwise = Polygon::new(vec![vec2(0.0, 0.0), vec2(0.0, 1.0), vec2(1.0, 1.0), vec2(1.0, 0.0)]);
+        assert!((clockwise.area() - 1.0).abs() < 1e-12);
+        assert!((clockwise.centroid() - vec2(0.5, 0.5)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn squares_two_metres_apart_have_a_gap_of_one() {
+        assert!((square(0.0, 0.0).distance(&square(2.0, 0.0)) - 1.0).abs() < 1e-12);
+        assert!(!square(0.0, 0.0).touches(&square(2.0, 0.0)));
+    }
+
+    #[test]
+    fn a_square_inside_another_touches_it() {
+        let large = Polygon::rectangle(Pose::default(), 4.0, 4.0);
+        assert!(large.touches(&square(0.0, 0.0)) && square(0.0, 0.0).touches(&large));
+        assert_eq!(large.distance(&square(0.5, 0.5)), 0.0);
+    }
+
+    #[test]
+    fn the_border_counts_as_inside() {
+        assert!(square(0.0, 0.0).contains(vec2(0.5, 0.0)));
+        assert!(!square(0.0, 0.0).contains(vec2(0.500001, 0.0)));
+    }
+}

@@ -1,0 +1,1 @@
+//! Chunk tree → room, RDT nodes and object. Never sees a map.

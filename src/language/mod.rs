@@ -1,0 +1,1 @@
+//! Text → tokens → part-of-speech tags → chunk tree. Never sees a map.

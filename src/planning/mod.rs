@@ -1,0 +1,1 @@
+//! RDT nodes and room map → actions.

@@ -1,0 +1,254 @@
+//! What `ground` adds: `grounding`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Rounded, Tag};
+
+/// What the robot understood: room, RDT nodes and object of the best reading.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Grounding {
+    /// The room as said; null when nothing was said of it.
+    pub room: Option<RoomSlot>,
+    /// The object to find; null when none was named.
+    pub object: Option<ObjectSlot>,
+    /// Reference–direction–target nodes, in the order spoken.
+    pub nodes: Vec<Node>,
+    /// Confidence in the best whole reading, 0 to 1.
+    #[serde(default)]
+    pub score: Rounded,
+    /// Its lead over the next reading, 0 to 1.
+    #[serde(default)]
+    pub margin: Rounded,
+    /// The next best whole readings.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub readings: Vec<Reading>,
+    /// The one question that would settle an ambiguity.
+    #[serde(default)]
+    pub question: Option<String>,
+    /// Content words that changed nothing.
+    #[serde(default)]
+    pub unused: Vec<TextSpan>,
+    /// What made the reading doubtful or changed it: a negation, a correction.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
+    /// What is missing, when the record could not be grounded.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub problems: Vec<String>,
+    /// Per chunk: what it was taken for and why.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub why: Vec<Why>,
+}
+
+/// A whole reading that lost to the best one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Reading {
+    /// The room as said.
+    pub room: Option<RoomSlot>,
+    /// The object to find.
+    pub object: Option<ObjectSlot>,
+    /// Reference–direction–target nodes.
+    pub nodes: Vec<Node>,
+    /// Confidence, 0 to 1.
+    pub score: Rounded,
+    /// How it differs from the best reading.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub because: Option<String>,
+}
+
+/// The room: by name, by side, or both.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RoomSlot {
+    /// `living_room`, `bedroom`, …, when said.
+    pub name: Option<String>,
+    /// The side that picks the room, when said.
+    pub side: Option<Direction>,
+    /// "The second door": which of several, counted from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ordinal: Option<u32>,
+    /// Confidence, 0 to 1.
+    #[serde(default)]
+    pub score: Rounded,
+}
+
+/// The object to find.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ObjectSlot {
+    /// Head noun in lower_snake.
+    pub name: String,
+    /// Colour, size and the like, as said.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub attributes: Vec<String>,
+    /// Confidence, 0 to 1.
+    #[serde(default)]
+    pub score: Rounded,
+}
+
+/// One reference–direction–target node: a target furniture, or a step without one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Node {
+    /// Noun of the target furniture in lower_snake; null for a step without one.
+    pub target: Option<String>,
+    /// Colour, size, shape and material of the target, as said.
+    #[serde(default)]
+    pub attributes: Vec<String>,
+    /// "The second table": counted from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ordinal: Option<u32>,
+    /// References and directions in the order spoken.
+    pub pairs: Vec<Pair>,
+    /// Confidence, 0 to 1.
+    #[serde(default)]
+    pub score: Rounded,
+}
+
+/// A reference and the direction from it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Pair {
+    /// `move`, `room`, `wall`, `door`, `robot`, or a noun in lower_snake.
+    pub reference: String,
+    /// Where, seen from the reference.
+    pub direction: Direction,
+    /// The axes in which the direction is read; the likeliest when there are several.
+    pub frame: Frame,
+    /// The second reference of `between`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub and: Option<String>,
+    /// How far, or until what.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amount: Option<Amount>,
+    /// "The second chair": counted from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ordinal: Option<u32>,
+}
+
+/// The paper's seven directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Direction {
+    /// In front, ahead, nearer the door.
+    Front,
+    /// Behind, at the far end.
+    Back,
+    /// To the left.
+    Left,
+    /// To the right.
+    Right,
+    /// In the middle.
+    Central,
+    /// Next to, by, with, against.
+    Side,
+    /// Between two references.
+    Between,
+}
+
+impl Direction {
+    /// The name as it stands in records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Front => "front",
+            Self::Back => "back",
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Central => "central",
+            Self::Side => "side",
+            Self::Between => "between",
+        }
+    }
+
+    /// Left for right and right for left; the others as they are.
+    pub const fn mirrored(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+            other => other,
+        }
+    }
+}
+
+/// The axes in which a direction is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Frame {
+    /// The robot's pose when the words are reached.
+    Robot,
+    /// The heading at which the room is entered, wherever the robot stands: front is nearer the door.
+    Viewer,
+    /// The item's own front, left and right.
+    Intrinsic,
+    /// Seen by someone who stands before the item's front and looks at it: left and right mirrored.
+    Facing,
+}
+
+impl Frame {
+    /// The name as it stands in records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Robot => "robot",
+            Self::Viewer => "viewer",
+            Self::Intrinsic => "intrinsic",
+            Self::Facing => "facing",
+        }
+    }
+}
+
+/// How far a move goes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Amount {
+    /// A share of the room's depth, 0 to 1.
+    Fraction(f64),
+    /// Metres.
+    Meters(f64),
+    /// Human steps of about 0.7 m.
+    Steps(f64),
+    /// A turn in degrees.
+    Degrees(f64),
+    /// Until something is reached: `wall`, `door`, `room`, or a noun.
+    Until(String),
+}
+
+/// A piece of the text.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TextSpan {
+    /// The words.
+    pub text: String,
+    /// First byte in `text`.
+    pub start: usize,
+    /// One past the last byte in `text`.
+    pub end: usize,
+}
+
+/// What one chunk was taken for, and why.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Why {
+    /// First byte in `text`.
+    pub start: usize,
+    /// One past the last byte in `text`.
+    pub end: usize,
+    /// The chunk's kind.
+    pub tag: Tag,
+    /// The type the paper's step 1 gives: `target_room`, `inside_room_navigation`, `target_object`.
+    #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
+    pub kind: Option<String>,
+    /// Room, when the chunk names one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub room: Option<String>,
+    /// Object, when the chunk names one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub object: Option<String>,
+    /// Reference, when the chunk gives one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<String>,
+    /// Direction, when the chunk gives one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<Direction>,
+    /// Target furniture, when the chunk names one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target: Option<String>,
+    /// Confidence, 0 to 1.
+    #[serde(default)]
+    pub score: Rounded,
+    /// In words: the rule or nearest example, every factor, the runner-up.
+    pub because: String,
+}

@@ -1,0 +1,186 @@
+//! One record as it travels: an ordered list of keys whose values stay unparsed until someone asks.
+//!
+//! Keeping the raw bytes of each value is what makes pass-through exact (key
+//! order, number spelling, unknown keys) and cheap (a stage parses only the
+//! keys it reads).
+
+use std::borrow::Cow;
+use std::fmt;
+
+use serde::de::{MapAccess, Visitor};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::value::RawValue;
+
+/// A record: keys in their order, values as raw JSON.
+#[derive(Debug, Default)]
+pub struct Record<'line> {
+    line: &'line str,
+    fields: Vec<(Cow<'line, str>, Cow<'line, RawValue>)>,
+}
+
+/// A value of a record that is not what its key promises.
+#[derive(Debug, thiserror::Error)]
+#[error("`{key}`: {message}")]
+pub struct FieldError {
+    /// The key.
+    pub key: String,
+    /// What is wrong with its value.
+    pub message: String,
+    /// Bytes from the start of the line to the place, when the value came from a line.
+    pub offset: Option<usize>,
+}
+
+impl<'line> Record<'line> {
+    /// Parses one line.
+    pub fn parse(line: &'line str) -> Result<Self, serde_json::Error> {
+        serde_json::from_str(line).map(|record| Self { line, ..record })
+    }
+
+    /// A record that holds `text` under the given id.
+    pub fn from_text(id: &str, text: &str) -> Self {
+        let mut record = Self::default();
+        record.set("id", &id);
+        record.set("text", &text);
+        record
+    }
+
+    /// The raw JSON under `key`.
+    pub fn raw(&self, key: &str) -> Option<&RawValue> {
+        self.fields.iter().find(|(k, _)| k == key).map(|(_, v)| v.as_ref())
+    }
+
+    /// The value under `key`, or nothing when the key is absent.
+    pub fn get<'a, T: Deserialize<'a>>(&'a self, key: &str) -> Result<Option<T>, FieldError> {
+        let Some(raw) = self.raw(key) else { return Ok(None) };
+        serde_json::from_str(raw.get()).map(Some).map_err(|error| FieldError {
+            key: key.to_string(),
+            message: without_position(&error),
+            offset: self.offset_of(raw.get()).map(|start| start + error.column().saturating_sub(1)),
+        })
+    }
+
+    /// The value under `key`; its absence is an error that says which stage adds it.
+    pub fn require<'a, T: Deserialize<'a>>(&'a self, key: &str, added_by: &str) -> Result<T, FieldError> {
+        self.get(key)?.ok_or_else(|| FieldError {
+            key: key.to_string(),
+            message: format!("missing; {added_by}"),
+            offset: None,
+        })
+    }
+
+    /// Sets `key`, in place when the record has it, else at the end.
+    pub fn set<T: Serialize + ?Sized>(&mut self, key: &str, value: &T) {
+        // Only a map with keys that are not strings can fail here, and no type of the contract has one.
+        let Ok(raw) = serde_json::value::to_raw_value(value) else { return };
+        match self.fields.iter_mut().find(|(k, _)| k == key) {
+            Some(field) => field.1 = Cow::Owned(raw),
+            None => self.fields.push((Cow::Owned(key.to_string()), Cow::Owned(raw))),
+        }
+    }
+
+    /// The record's id as text, when it has one that is a string or a number.
+    pub fn id(&self) -> Option<String> {
+        let raw = self.raw("id")?.get();
+        if raw.starts_with('"') { serde_json::from_str(raw).ok() } else { Some(raw.to_string()) }
+    }
+
+    /// Bytes from the start of the line to `value`, when it is a slice of the line.
+    fn offset_of(&self, value: &str) -> Option<usize> {
+        let offset = (value.as_ptr() as usize).checked_sub(self.line.as_ptr() as usize)?;
+        (offset < self.line.len()).then_some(offset)
+    }
+}
+
+/// serde_json ends its messages with "at line 1 column 7", counted within the value: the caller knows better.
+fn without_position(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    text.rfind(" at line ").map_or(text.clone(), |cut| text[..cut].to_string())
+}
+
+impl Serialize for Record<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.fields.len()))?;
+        for (key, value) in &self.fields {
+            map.serialize_entry(key.as_ref(), value.as_ref())?;
+        }
+        map.end()
+    }
+}
+
+impl<'de> Deserialize<'de> for Record<'de> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(RecordVisitor)
+    }
+}
+
+struct RecordVisitor;
+
+impl<'de> Visitor<'de> for RecordVisitor {
+    type Value = Record<'de>;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        formatter.write_str("a record, that is, a JSON object on one line")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Record<'de>, A::Error> {
+        let mut fields: Vec<(Cow<'de, str>, Cow<'de, RawValue>)> = Vec::with_capacity(8);
+        while let Some(Key(key)) = map.next_key::<Key<'de>>()? {
+            if fields.iter().any(|(k, _)| *k == key) {
+                return Err(serde::de::Error::custom(format!("the key `{key}` stands twice; keep one of them")));
+            }
+            fields.push((key, Cow::Borrowed(map.next_value::<&'de RawValue>()?)));
+        }
+        Ok(Record { line: "", fields })
+    }
+}
+
+/// A key, borrowed from the line unless it holds escapes.
+#[derive(Deserialize)]
+struct Key<'a>(#[serde(borrow)] Cow<'a, str>);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ODD: &str = r#"{"z":1.0,"a":{"k":[1e3,-0]},"id":7,"text":"x","größe":"\u00e4"}"#;
+
+    #[test]
+    fn unknown_keys_come_out_byte_for_byte_in_their_order() {
+        let record = Record::parse(ODD).expect("valid JSON");
+        assert_eq!(serde_json::to_string(&record).expect("serializes"), ODD);
+    }
+
+    #[test]
+    fn a_new_key_goes_to_the_end_and_an_old_one_stays_in_place() {
+        let mut record = Record::parse(r#"{"id":"1","plan":null,"x":0}"#).expect("valid JSON");
+        record.set("plan", &1);
+        record.set("trial", &2);
+        assert_eq!(serde_json::to_string(&record).expect("serializes"), r#"{"id":"1","plan":1,"x":0,"trial":2}"#);
+    }
+
+    #[test]
+    fn a_key_that_stands_twice_is_refused_by_name() {
+        let error = Record::parse(r#"{"id":1,"id":2}"#).expect_err("a duplicate key");
+        assert!(error.to_string().contains("`id` stands twice"), "{error}");
+    }
+
+    #[test]
+    fn an_array_is_no_record() {
+        let error = Record::parse("[1,2]").expect_err("an array");
+        assert!(error.to_string().contains("expected a record"), "{error}");
+    }
+
+    #[test]
+    fn a_value_of_the_wrong_kind_is_located_within_the_line() {
+        let record = Record::parse(r#"{"id":"1","text": 12}"#).expect("valid JSON");
+        let error = record.get::<&str>("text").expect_err("a number is no text");
+        assert_eq!(error.offset, Some(19));
+        assert!(error.to_string().starts_with("`text`: invalid type: integer"), "{error}");
+    }
+
+    #[test]
+    fn ids_may_be_numbers() {
+        assert_eq!(Record::parse(ODD).expect("valid JSON").id().as_deref(), Some("7"));
+    }
+}

@@ -1,0 +1,26 @@
+//! The contract between the stages: one JSON object on one line, growing.
+//!
+//! Each stage adds its own key, keeps every key it does not know byte for
+//! byte, and never changes another's. The types here are that contract; their
+//! JSON Schemas stand in `docs/schema/`. Nothing here computes anything.
+//!
+//! Offsets are bytes into `text`. Lengths are metres and angles radians,
+//! counter-clockwise, unless a name ends in `_deg`.
+
+mod chunk;
+mod detection;
+mod grounding;
+mod hof;
+mod line;
+mod plan;
+mod precision;
+mod trial;
+
+pub use chunk::{Chunk, Tag, Token};
+pub use detection::Detection;
+pub use grounding::{Amount, Direction, Frame, Grounding, Node, ObjectSlot, Pair, Reading, RoomSlot, TextSpan, Why};
+pub use hof::{DegreeOfTruth, Hof, HofForce};
+pub use line::{FieldError, Record};
+pub use plan::{Action, Plan, SearchPair};
+pub use precision::Rounded;
+pub use trial::{ActionReport, Outcome, PathPoint, Trial};

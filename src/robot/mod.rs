@@ -1,0 +1,1 @@
+//! One small trait for a mobile base, and the bases that have it.
