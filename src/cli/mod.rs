@@ -1,1 +1,27 @@
-//! What the seven binaries share: arguments, JSON lines in and out, diagnostics, exit codes.
+//! What the seven binaries share: arguments, JSON lines in and out,
+//! diagnostics, exit codes, progress.
+//!
+//! The only room that prints or ends the process; it knows nothing of what a
+//! stage computes.
+
+mod arguments;
+mod diagnostic;
+mod exit;
+mod files;
+mod filter;
+mod input;
+mod interrupt;
+mod output;
+mod program;
+mod progress;
+
+pub use arguments::{ColorChoice, Common, Format};
+pub use diagnostic::{Diagnostic, Reporter};
+pub use exit::{Exit, Failure};
+pub use files::{read_file, write_file};
+pub use filter::{Intake, run_filter};
+pub use input::{Inputs, Line};
+pub use interrupt::on_interrupt;
+pub use output::{SharedSink, Sink, open_output};
+pub use program::{Program, command_of, main};
+pub use progress::Progress;

@@ -55,7 +55,7 @@ impl<'line> Record<'line> {
         let Some(raw) = self.raw(key) else { return Ok(None) };
         serde_json::from_str(raw.get()).map(Some).map_err(|error| FieldError {
             key: key.to_string(),
-            message: without_position(&error),
+            message: message_without_position(&error),
             offset: self.offset_of(raw.get()).map(|start| start + error.column().saturating_sub(1)),
         })
     }
@@ -92,8 +92,8 @@ impl<'line> Record<'line> {
     }
 }
 
-/// serde_json ends its messages with "at line 1 column 7", counted within the value: the caller knows better.
-fn without_position(error: &serde_json::Error) -> String {
+/// The message of a JSON error without its "at line 1 column 7", which counts within the value: the caller knows better.
+pub fn message_without_position(error: &serde_json::Error) -> String {
     let text = error.to_string();
     text.rfind(" at line ").map_or(text.clone(), |cut| text[..cut].to_string())
 }

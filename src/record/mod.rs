@@ -14,13 +14,15 @@ mod hof;
 mod line;
 mod plan;
 mod precision;
+mod stage;
 mod trial;
 
 pub use chunk::{Chunk, Tag, Token};
 pub use detection::Detection;
 pub use grounding::{Amount, Direction, Frame, Grounding, Node, ObjectSlot, Pair, Reading, RoomSlot, TextSpan, Why};
 pub use hof::{DegreeOfTruth, Hof, HofForce};
-pub use line::{FieldError, Record};
+pub use line::{FieldError, Record, message_without_position};
 pub use plan::{Action, Plan, SearchPair};
 pub use precision::Rounded;
+pub use stage::{Note, Stage, StageError};
 pub use trial::{ActionReport, Outcome, PathPoint, Trial};

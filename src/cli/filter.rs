@@ -1,0 +1,163 @@
+//! The loop of every filter: lines in, one stage, lines out, in order.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use rayon::prelude::*;
+
+use super::{Common, Diagnostic, Exit, Failure, Format, Inputs, Line, Progress, Reporter, on_interrupt, open_output};
+use crate::record::{Note, Record, Stage, StageError};
+
+/// Enough lines to keep the cores busy, few enough to answer soon.
+const BATCH_LINES: usize = 1024;
+
+/// What a filter takes for a record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Intake {
+    /// JSON objects only.
+    Records,
+    /// JSON objects, or plain lines that become `{"id": …, "text": …}`.
+    RecordsOrText,
+}
+
+/// What became of one line.
+struct Outcome {
+    output: Option<String>,
+    error: Option<Diagnostic>,
+    warning: Option<Diagnostic>,
+}
+
+/// Runs `stage` over all input lines.
+pub fn run_filter(program: &'static str, common: &Common, intake: Intake, stage: &dyn Stage) -> Result<Exit, Failure> {
+    let reporter = Reporter::new(program, common);
+    let sink = open_output(common)?;
+    let closing = sink.clone();
+    on_interrupt(move || closing.discard_soon());
+    let workers = Workers::new(common.jobs)?;
+    let mut inputs = Inputs::new(&common.files);
+    let mut progress = Progress::new(common, None);
+    let mut exit = Exit::Done;
+    loop {
+        let batch = inputs.next_batch(BATCH_LINES)?;
+        if batch.is_empty() {
+            break;
+        }
+        let outcomes = workers.map(&batch, |line| process(line, intake, common.format, stage));
+        let failed = outcomes.iter().position(|o| o.error.is_some()).filter(|_| !common.keep_going);
+        let written = &outcomes[..failed.unwrap_or(outcomes.len())];
+        sink.write(&joined(written))?;
+        if report(&outcomes[..failed.map_or(outcomes.len(), |at| at + 1)], &reporter) {
+            exit = Exit::Lost;
+        }
+        if failed.is_some() {
+            sink.discard();
+            return Err(Failure::Failed("stopped at the first record that failed; --keep-going goes on".to_string()));
+        }
+        progress.add(batch.len() as u64);
+    }
+    sink.finish()?;
+    Ok(exit)
+}
+
+fn joined(outcomes: &[Outcome]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for output in outcomes.iter().filter_map(|o| o.output.as_ref()) {
+        bytes.extend_from_slice(output.as_bytes());
+        bytes.push(b'\n');
+    }
+    bytes
+}
+
+/// Says what went wrong; true when anything did.
+fn report(outcomes: &[Outcome], reporter: &Reporter) -> bool {
+    for outcome in outcomes {
+        if let Some(error) = &outcome.error {
+            reporter.error(error);
+        }
+        if let Some(warning) = &outcome.warning {
+            reporter.warning(warning);
+        }
+    }
+    outcomes.iter().any(|o| o.error.is_some() || o.warning.is_some())
+}
+
+fn process(line: &Line, intake: Intake, format: Format, stage: &dyn Stage) -> Outcome {
+    let mut outcome = Outcome { output: None, error: None, warning: None };
+    let text = match std::str::from_utf8(&line.bytes) {
+        Ok(text) => text,
+        Err(error) => {
+            let message = "this byte is not UTF-8; convert the file, for example with iconv";
+            outcome.error = Some(Diagnostic::at(line, error.valid_up_to(), None, message));
+            return outcome;
+        }
+    };
+    if text.trim().is_empty() {
+        return outcome;
+    }
+    match parse(line, text, intake) {
+        Ok(record) => work(line, record, format, stage, &mut outcome),
+        Err(error) => outcome.error = Some(error),
+    }
+    outcome
+}
+
+fn parse<'line>(line: &Line, text: &'line str, intake: Intake) -> Result<Record<'line>, Diagnostic> {
+    let looks_like_json = text.trim_start().starts_with(['{', '[']);
+    if !looks_like_json && intake == Intake::RecordsOrText {
+        return Ok(Record::from_text(&line.ordinal.to_string(), text.trim()));
+    }
+    Record::parse(text).map_err(|error| {
+        let mut message = crate::record::message_without_position(&error);
+        if error.is_eof() && !line.terminated {
+            message.push_str("; the input ends in the middle of this record");
+        } else if !looks_like_json {
+            message = "not a JSON object; pipe plain text through `chunk` first".to_string();
+        }
+        Diagnostic::at(line, error.column().saturating_sub(1), None, message)
+    })
+}
+
+fn work(line: &Line, mut record: Record, format: Format, stage: &dyn Stage, outcome: &mut Outcome) {
+    let id = record.id();
+    let result = catch_unwind(AssertUnwindSafe(|| stage.run(&mut record)))
+        .unwrap_or_else(|_| Err(StageError::new("internal error, please report it with this record")));
+    let text = match (&result, format) {
+        (Ok(_), Format::Text) => stage.text(&record),
+        (Err(_), Format::Text) => Ok(String::new()),
+        _ => serde_json::to_string(&record).map_err(|e| StageError::new(e.to_string())),
+    };
+    let at = |error: &StageError| Diagnostic::at(line, error.offset.unwrap_or(0), id.clone(), error.message.clone());
+    match result {
+        Err(error) => outcome.error = Some(at(&error)),
+        Ok(Note::Lossy(what)) => outcome.warning = Some(Diagnostic::at(line, 0, id.clone(), what)),
+        Ok(Note::Done) => {}
+    }
+    match text {
+        Ok(text) => outcome.output = Some(text).filter(|text| !text.is_empty()),
+        Err(error) => outcome.error = Some(at(&error)),
+    }
+}
+
+/// Threads, started when there is more than one line to work on.
+struct Workers {
+    pool: Option<rayon::ThreadPool>,
+}
+
+impl Workers {
+    fn new(jobs: usize) -> Result<Self, Failure> {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let jobs = if jobs == 0 { cores } else { jobs };
+        if jobs == 1 {
+            return Ok(Self { pool: None });
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
+        pool.map(|pool| Self { pool: Some(pool) })
+            .map_err(|e| Failure::Failed(format!("cannot start {jobs} threads: {e}")))
+    }
+
+    fn map<T: Send>(&self, lines: &[Line], work: impl Fn(&Line) -> T + Sync) -> Vec<T> {
+        match &self.pool {
+            Some(pool) if lines.len() > 1 => pool.install(|| lines.par_iter().map(&work).collect()),
+            _ => lines.iter().map(work).collect(),
+        }
+    }
+}

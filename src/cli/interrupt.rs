@@ -1,0 +1,32 @@
+//! What happens on SIGINT, SIGTERM and SIGHUP.
+
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+use super::exit::INTERRUPTED;
+
+type Action = Box<dyn FnOnce() + Send>;
+
+static ACTIONS: OnceLock<Mutex<Vec<Action>>> = OnceLock::new();
+
+/// Runs `action` when the process is told to stop, before it exits with 130.
+///
+/// Actions run in the order given, on a thread of their own. A second call
+/// adds to the first.
+pub fn on_interrupt(action: impl FnOnce() + Send + 'static) {
+    let actions = ACTIONS.get_or_init(|| {
+        // Without the handler an interrupt still ends the process, only less tidily.
+        let _ = ctrlc::set_handler(stop);
+        Mutex::new(Vec::new())
+    });
+    actions.lock().unwrap_or_else(PoisonError::into_inner).push(Box::new(action));
+}
+
+fn stop() {
+    if let Some(actions) = ACTIONS.get() {
+        let waiting = std::mem::take(&mut *actions.lock().unwrap_or_else(PoisonError::into_inner));
+        for action in waiting {
+            action();
+        }
+    }
+    std::process::exit(i32::from(INTERRUPTED));
+}

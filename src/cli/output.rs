@@ -1,0 +1,137 @@
+//! Bytes out: standard output, or a file that appears whole or not at all.
+
+use std::fs::OpenOptions;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use tempfile::NamedTempFile;
+
+use super::{Common, Failure};
+
+/// How long an interrupt waits for a write: a reader that has stalled must not keep us alive.
+const STUCK_AFTER: Duration = Duration::from_millis(500);
+
+/// Where records go. Each write holds whole lines, so an interrupt between writes cuts none.
+pub struct Sink {
+    name: String,
+    target: Target,
+}
+
+enum Target {
+    Stream(Box<dyn Write + Send>),
+    File { temporary: NamedTempFile, path: PathBuf, force: bool },
+    Closed,
+}
+
+/// A sink that the interrupt handler can close.
+#[derive(Clone)]
+pub struct SharedSink(Arc<Mutex<Sink>>);
+
+impl SharedSink {
+    /// Writes whole lines and hands them on at once.
+    pub fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
+        self.with(|sink| sink.write(bytes))
+    }
+
+    /// Puts the file in its place.
+    pub fn finish(&self) -> Result<(), Failure> {
+        self.with(Sink::finish)
+    }
+
+    /// Gives up: nothing half-written stays.
+    pub fn discard(&self) {
+        self.with(|sink| sink.target = Target::Closed);
+    }
+
+    /// Gives up from another thread, after the write that is under way, but does not wait for one that is stuck.
+    pub fn discard_soon(&self) {
+        let give_up = Instant::now() + STUCK_AFTER;
+        while Instant::now() < give_up {
+            if let Ok(mut sink) = self.0.try_lock() {
+                sink.target = Target::Closed;
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    fn with<T>(&self, act: impl FnOnce(&mut Sink) -> T) -> T {
+        act(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+/// Opens what `--output` names, or standard output.
+pub fn open_output(common: &Common) -> Result<SharedSink, Failure> {
+    let sink = match &common.output {
+        None => Sink { name: "standard output".to_string(), target: Target::Stream(Box::new(io::stdout())) },
+        Some(path) => Sink { name: path.display().to_string(), target: open_file(path, common.force)? },
+    };
+    Ok(SharedSink(Arc::new(Mutex::new(sink))))
+}
+
+fn open_file(path: &Path, force: bool) -> Result<Target, Failure> {
+    let named = |e: io::Error| Failure::Failed(format!("{}: {e}", path.display()));
+    match path.metadata() {
+        // A device or a FIFO cannot be renamed onto.
+        Ok(found) if !found.is_file() && !found.is_dir() => {
+            let stream = OpenOptions::new().write(true).open(path).map_err(named)?;
+            return Ok(Target::Stream(Box::new(stream)));
+        }
+        Ok(_) if !force => {
+            return Err(Failure::Usage(format!("{} exists; name another file or give --force", path.display())));
+        }
+        _ => {}
+    }
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let temporary = NamedTempFile::new_in(folder).map_err(named)?;
+    Ok(Target::File { temporary, path: path.to_path_buf(), force })
+}
+
+impl Sink {
+    fn write(&mut self, bytes: &[u8]) -> Result<(), Failure> {
+        let written = match &mut self.target {
+            Target::Stream(stream) => stream.write_all(bytes).and_then(|()| stream.flush()),
+            Target::File { temporary, .. } => temporary.write_all(bytes),
+            Target::Closed => Ok(()),
+        };
+        written.map_err(|error| Failure::writing(&self.name, &error))
+    }
+
+    fn finish(&mut self) -> Result<(), Failure> {
+        let Target::File { temporary, path, force } = std::mem::replace(&mut self.target, Target::Closed) else {
+            return Ok(());
+        };
+        persist(temporary, &path, force)
+    }
+}
+
+/// Renames a temporary file onto `path`, with the permissions a new file would have.
+pub(super) fn persist(temporary: NamedTempFile, path: &Path, force: bool) -> Result<(), Failure> {
+    let named = |e: io::Error| Failure::Failed(format!("{}: {e}", path.display()));
+    widen_permissions(&temporary).map_err(named)?;
+    if force {
+        temporary.persist(path).map_err(|e| named(e.error))?;
+    } else {
+        temporary.persist_noclobber(path).map_err(|e| match e.error.kind() {
+            io::ErrorKind::AlreadyExists => {
+                Failure::Usage(format!("{} exists; name another file or give --force", path.display()))
+            }
+            _ => named(e.error),
+        })?;
+    }
+    Ok(())
+}
+
+/// Temporary files are private; an output file should be readable as any other.
+#[cfg(unix)]
+fn widen_permissions(file: &NamedTempFile) -> io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn widen_permissions(_file: &NamedTempFile) -> io::Result<()> {
+    Ok(())
+}

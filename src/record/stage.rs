@@ -1,0 +1,44 @@
+//! What a stage is: something that adds one key to a record.
+
+use super::{FieldError, Record};
+
+/// One stage of the pipeline, as a filter runs it.
+pub trait Stage: Sync {
+    /// Reads what it needs from the record and adds its own key.
+    fn run(&self, record: &mut Record) -> Result<Note, StageError>;
+
+    /// The record for people, after [`Stage::run`]: `--format text`. Lines end in a newline, the last one not.
+    fn text(&self, record: &Record) -> Result<String, StageError>;
+}
+
+/// How a stage did on one record.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Note {
+    /// All well.
+    Done,
+    /// Done, but something of the input was lost or skipped; says what.
+    Lossy(String),
+}
+
+/// Why a stage could not do its work on one record.
+#[derive(Debug, thiserror::Error)]
+#[error("{message}")]
+pub struct StageError {
+    /// What was wrong, and what mends it.
+    pub message: String,
+    /// Bytes from the start of the line to the place.
+    pub offset: Option<usize>,
+}
+
+impl StageError {
+    /// An error about the record as a whole.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into(), offset: None }
+    }
+}
+
+impl From<FieldError> for StageError {
+    fn from(error: FieldError) -> Self {
+        Self { message: error.to_string(), offset: error.offset }
+    }
+}
