@@ -20,7 +20,7 @@
 //! | [`geometry`] | pose, polygon, grid | |
 //! | [`record`] | the record that grows from stage to stage | |
 
-pub mod behavior;
+//BEH
 pub mod cli;
 pub mod evaluation;
 pub mod force;
@@ -28,7 +28,7 @@ pub mod geometry;
 pub mod grounding;
 pub mod language;
 pub mod perception;
-pub mod planning;
+//PLAN
 pub mod record;
 pub mod recording;
 pub mod robot;

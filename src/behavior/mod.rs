@@ -1,1 +1,27 @@
-//! The executive: runs a plan on a robot, tier by tier. It may hold the room map and the robot's sensors, never the scene.
+//! The executive: runs a plan on a robot, tier by tier (Huo et al. 2014, section V).
+//!
+//! Upper tier ([`Executive`]): the three subtasks – enter the room, navigate
+//! inside it, find the object. Lower tier: dynamic steps ([`motion`], by
+//! odometry and room map) and the static search for the target furniture
+//! ([`search`], by what the eyes report).
+//!
+//! It holds the room map and the robot's sensors, never the scene: what is
+//! true is for the judge, outside. Every decision leaves a line that says why.
+
+mod approach;
+mod beliefs;
+mod executive;
+mod journal;
+pub mod motion;
+mod pilot;
+mod regions;
+mod relation;
+mod route;
+pub mod search;
+mod watcher;
+
+pub use beliefs::{Beliefs, Furniture};
+pub use executive::{Executive, Options, Report};
+pub use journal::Journal;
+pub use pilot::Halt;
+pub use watcher::{Silent, Watcher};

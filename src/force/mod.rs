@@ -1,1 +1,37 @@
-//! Histogram of forces and the spatial descriptions built on it. Knows nothing of robots or language.
+//! Histogram of forces, and the spatial relations built on it.
+//!
+//! The histogram of forces between two objects A and B gives, for each
+//! direction θ, the weight of the arguments for "A is in direction θ of B"
+//! (Matsakis & Wendling, "A new way to represent the relative position
+//! between areal objects", IEEE TPAMI 21(7), 1999):
+//!
+//! F_r(θ) = ∫ f_r(A_θ(v), B_θ(v)) dv, f_r(I, J) = ∫∫ (x − z)^−r dz dx over x ∈ I, z ∈ J, x > z,
+//!
+//! where A_θ(v) is the section of A by the line of direction θ with normal
+//! offset v. Angles are counter-clockwise from +x, y upward.
+//!
+//! Nothing here knows of robots or language; only `stage` knows of records.
+//!
+//! ```
+//! use spatial_fetch::force::{Force, Shape, polygon};
+//! let square = |x: f64| Shape::from_ring(vec![[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]]);
+//! let histogram = polygon::histogram(&square(3.0), &square(0.0), Force::Power(2.0), 4).unwrap();
+//! assert!((histogram.values()[0] - (9.0_f64 / 8.0).ln()).abs() < 1e-12);
+//! assert_eq!(histogram.values()[2], 0.0);
+//! ```
+
+mod degree;
+mod describe;
+mod kernel;
+pub mod polygon;
+mod relation;
+mod shape;
+mod stage;
+
+pub use degree::{Degree, degree_of_truth, main_direction};
+pub use describe::describe;
+pub use kernel::{Force, Infinite};
+pub use polygon::Histogram;
+pub use relation::{Relation, between};
+pub use shape::{Shape, ShapeError};
+pub use stage::{Describer, ForceName};

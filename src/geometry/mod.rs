@@ -2,9 +2,11 @@
 //!
 //! World frame: x east, y north, headings counter-clockwise from +x.
 
+mod clearance;
 mod polygon;
 mod pose;
 
+pub use clearance::{Cell, ClearanceGrid};
 pub use polygon::Polygon;
 pub use pose::{Pose, angle_between, wrap_angle};
 

@@ -1,1 +1,37 @@
-//! What a robot's eyes report: furniture with pose, and the object. Nothing here may look at the scene.
+//! What a robot's eyes report: furniture with pose, and the object.
+//!
+//! The executive sees only [`Eyes`]. [`truth`] is the ideal pair of eyes; it is
+//! the one place here that may look at the scene.
+
+pub mod truth;
+
+use crate::geometry::Pose;
+use crate::record::Detection;
+
+/// A camera with whatever makes detections of its pictures.
+pub trait Eyes {
+    /// What is seen now; `believed` is where the robot believes it stands, and the frame of the answer.
+    fn look(&mut self, believed: Pose) -> View;
+}
+
+/// One look.
+#[derive(Clone, Debug, Default)]
+pub struct View {
+    /// Furniture in the picture.
+    pub furniture: Vec<Detection>,
+    /// Small objects in the picture.
+    pub objects: Vec<ObjectSighting>,
+}
+
+/// A small object in the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjectSighting {
+    /// What it is taken for.
+    pub name: String,
+    /// Metres, in the believed world frame.
+    pub x: f64,
+    /// Metres, in the believed world frame.
+    pub y: f64,
+    /// Whether a person could tell what it is from this picture: the paper's criterion of success.
+    pub recognisable: bool,
+}

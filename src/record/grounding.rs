@@ -122,6 +122,19 @@ pub struct Pair {
     pub ordinal: Option<u32>,
 }
 
+impl Pair {
+    /// The pair in words: "back of the couch".
+    pub fn phrase(&self) -> String {
+        let reference = self.reference.replace('_', " ");
+        match (self.direction, &self.and) {
+            (Direction::Between, Some(and)) => format!("between the {reference} and the {}", and.replace('_', " ")),
+            (Direction::Between, None) => format!("between the {reference}s"),
+            (Direction::Side, _) => format!("next to the {reference}"),
+            (direction, _) => format!("{} of the {reference}", direction.name()),
+        }
+    }
+}
+
 /// The paper's seven directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -206,6 +219,19 @@ pub enum Amount {
     Degrees(f64),
     /// Until something is reached: `wall`, `door`, `room`, or a noun.
     Until(String),
+}
+
+impl Amount {
+    /// The amount in words: "until the wall".
+    pub fn phrase(&self) -> String {
+        match self {
+            Self::Fraction(share) => format!("{:.0} % of the way", share * 100.0),
+            Self::Meters(metres) => format!("{metres} m"),
+            Self::Steps(steps) => format!("{steps} steps"),
+            Self::Degrees(degrees) => format!("{degrees}°"),
+            Self::Until(what) => format!("until the {}", what.replace('_', " ")),
+        }
+    }
 }
 
 /// A piece of the text.

@@ -1,1 +1,57 @@
 //! One small trait for a mobile base, and the bases that have it.
+//!
+//! Nothing here plans: a base takes velocities and reports what it measures.
+
+pub mod p3dx;
+pub mod simulated;
+
+use crate::geometry::{Pose, Vec2};
+
+/// A differential-drive base.
+pub trait MobileBase {
+    /// Where the base believes it is, by odometry, in the room map's frame.
+    fn pose(&self) -> Pose;
+
+    /// Linear (m/s) and angular (rad/s, counter-clockwise) velocity, as measured.
+    fn velocity(&self) -> (f64, f64);
+
+    /// Seconds since the trial began.
+    fn time_s(&self) -> f64;
+
+    /// Asks for a velocity (m/s, rad/s) and lets `seconds` pass. The base keeps to its own limits of speed and acceleration.
+    fn drive(&mut self, linear: f64, angular: f64, seconds: f64) -> Result<(), RobotError>;
+
+    /// The latest sonar readings.
+    fn sonar(&self) -> &[SonarReading];
+
+    /// What else the base reports.
+    fn status(&self) -> Status;
+}
+
+/// One sonar's reading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SonarReading {
+    /// Where the sonar sits on the base: x ahead, y to the left of its centre, metres.
+    pub mount: Vec2,
+    /// Which way it looks, radians from straight ahead.
+    pub bearing: f64,
+    /// Metres to the nearest echo; [`p3dx::SONAR_RANGE_M`] when there is none.
+    pub range_m: f64,
+}
+
+/// What a base reports of itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Status {
+    /// A wheel is held fast.
+    pub stalled: bool,
+    /// A bumper is pressed.
+    pub bumped: bool,
+}
+
+/// Why a base no longer does as it is asked.
+#[derive(Debug, thiserror::Error)]
+pub enum RobotError {
+    /// It does not answer.
+    #[error("the robot does not answer: {0}")]
+    Link(String),
+}

@@ -1,1 +1,20 @@
-//! The room map (what a robot may know) and the scene (what is true), and what sensors see of it.
+//! The room map (what a robot may know) and the scene (what is true), and
+//! what sensors see of it.
+//!
+//! The wall between the two types is what keeps the executive honest: it can
+//! hold a [`RoomMap`], never a [`Scene`].
+
+pub mod camera;
+mod check;
+mod error;
+mod furniture;
+mod map;
+mod scene;
+pub mod solid;
+
+pub use check::check;
+pub use error::WorldError;
+pub use furniture::{CATEGORIES, OBJECTS, Shape, Size, category, object};
+pub use map::{Door, Room, RoomMap};
+pub use scene::{Item, PlacedObject, Scene};
+pub use solid::{Color, Ray, Solid};

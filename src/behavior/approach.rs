@@ -1,0 +1,62 @@
+//! From where to look at a piece of furniture so that a small object on it can be recognised.
+
+use std::f64::consts::{PI, TAU};
+
+use super::Furniture;
+use super::pilot::SWING_M;
+use super::route::{length, route};
+use crate::geometry::{ClearanceGrid, Pose, Vec2, vec2, wrap_angle};
+
+/// Directions tried round the furniture.
+const DIRECTIONS: usize = 16;
+/// From the furniture's edge to the robot's centre: nearer, a low top leaves the picture; farther, small things blur.
+const NEAREST_M: f64 = 0.55;
+const FARTHEST_M: f64 = 1.25;
+/// Furniture longer than this may hide an object at its far end, so it is looked at from both sides.
+const LONG_M: f64 = 1.2;
+
+/// Poses from which to look at `furniture`, the cheapest to reach first; for long furniture also one from across.
+pub fn viewpoints(grid: &ClearanceGrid, from: Vec2, furniture: &Furniture) -> Vec<Pose> {
+    let centre = furniture.centre();
+    let mut places: Vec<(f64, Vec2)> = (0..DIRECTIONS)
+        .filter_map(|i| free_place(grid, furniture, TAU * i as f64 / DIRECTIONS as f64))
+        .map(|point| ((point - from).norm() + 0.5 * (point - centre).norm(), point))
+        .collect();
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let Some(first) = cheapest(grid, from, &places) else { return Vec::new() };
+    let mut poses = vec![facing(first, centre)];
+    if furniture.detection.length.max(furniture.detection.width) > LONG_M {
+        let across = |point: &Vec2| crate::geometry::angle_between(bearing(centre, *point), bearing(centre, first)) > PI / 2.0;
+        let others: Vec<(f64, Vec2)> = places.into_iter().filter(|(_, point)| across(point)).collect();
+        poses.extend(cheapest(grid, first, &others).map(|point| facing(point, centre)));
+    }
+    poses
+}
+
+/// The nearest free place to the furniture in one direction from it.
+fn free_place(grid: &ClearanceGrid, furniture: &Furniture, angle: f64) -> Option<Vec2> {
+    let centre = furniture.centre();
+    let direction = vec2(angle.cos(), angle.sin());
+    let edge = furniture.footprint.corners().iter().map(|c| (c - centre).dot(&direction)).fold(0.0, f64::max);
+    let steps = ((FARTHEST_M - NEAREST_M) / 0.1) as usize;
+    let place = |i: usize| centre + direction * (edge + NEAREST_M + 0.1 * i as f64);
+    (0..=steps).map(place).find(|&point| grid.clearance(grid.cell(point)) >= SWING_M + 0.05)
+}
+
+/// The places come sorted by straight distance; the first few that have a way are compared by its length.
+fn cheapest(grid: &ClearanceGrid, from: Vec2, places: &[(f64, Vec2)]) -> Option<Vec2> {
+    let reachable = places.iter().filter_map(|&(_, point)| {
+        let points = route(grid, from, point, SWING_M)?;
+        let end = points.last().copied().unwrap_or(from);
+        ((end - point).norm() < 0.15).then(|| (length(from, &points), point))
+    });
+    reachable.take(3).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point)
+}
+
+fn bearing(from: Vec2, to: Vec2) -> f64 {
+    (to.y - from.y).atan2(to.x - from.x)
+}
+
+fn facing(point: Vec2, centre: Vec2) -> Pose {
+    Pose::new(point.x, point.y, wrap_angle(bearing(point, centre)))
+}

@@ -1,0 +1,114 @@
+//! How well a candidate fits a reference–direction pair, read in one frame of reference.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::Furniture;
+use super::motion::RoomFrame;
+use crate::force;
+use crate::geometry::{Pose, Vec2};
+use crate::record::{Direction, Frame};
+
+/// "Next to" halves with every so many metres of gap.
+const BESIDE_HALVES_M: f64 = 0.6;
+/// "Left of", "behind": a relation to something far away says little; halves with every so many metres.
+const RELATED_HALVES_M: f64 = 2.5;
+
+/// Where the words are read: the room, and the robot's pose when it reached them.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<'a> {
+    /// The room and its entry.
+    pub room: &'a RoomFrame,
+    /// Where the robot stood when it reached the words.
+    pub arrived: Pose,
+}
+
+/// The angle in the world, radians, of a direction in a frame; nothing for central, side and between.
+///
+/// `yaw` is the heading of the reference's own front, when it has one.
+pub fn angle_of(direction: Direction, frame: Frame, place: Place, yaw: Option<f64>) -> Option<f64> {
+    // (heading of "front", +1 where left is counter-clockwise of it)
+    let (front, left) = match frame {
+        Frame::Robot => (place.arrived.heading, 1.0),
+        Frame::Viewer => (place.room.entry.heading + PI, -1.0),
+        Frame::Intrinsic => (yaw?, 1.0),
+        Frame::Facing => (yaw?, -1.0),
+    };
+    match direction {
+        Direction::Front => Some(front),
+        Direction::Back => Some(front + PI),
+        Direction::Left => Some(front + left * FRAC_PI_2),
+        Direction::Right => Some(front - left * FRAC_PI_2),
+        Direction::Central | Direction::Side | Direction::Between => None,
+    }
+}
+
+/// How well `candidate` stands in `direction` of `reference`, 0 to 1: the histogram of forces' degree of truth
+/// in that direction, less with distance. Nothing when the frame needs a front that the reference lacks.
+pub fn to_furniture(
+    candidate: &Furniture,
+    reference: &Furniture,
+    direction: Direction,
+    frame: Frame,
+    place: Place,
+) -> Option<f64> {
+    let gap = candidate.footprint.distance(&reference.footprint);
+    match direction {
+        Direction::Side | Direction::Between => Some(halving(gap, BESIDE_HALVES_M)),
+        Direction::Central => Some(halving((candidate.centre() - reference.centre()).norm(), BESIDE_HALVES_M)),
+        _ => {
+            let angle = angle_of(direction, frame, place, reference.detection.yaw)?;
+            let relation = force::Relation::between(&(&candidate.footprint).into(), &(&reference.footprint).into());
+            Some(relation.degree(angle).a * halving(gap, RELATED_HALVES_M))
+        }
+    }
+}
+
+/// How well `candidate` stands between two references.
+pub fn between(candidate: &Furniture, first: &Furniture, second: &Furniture) -> f64 {
+    force::between(&(&candidate.footprint).into(), &(&first.footprint).into(), &(&second.footprint).into())
+}
+
+/// How well a point lies in a direction from the robot, as it stood when it reached the words.
+pub fn to_robot(point: Vec2, direction: Direction, place: Place) -> f64 {
+    let off = match direction {
+        Direction::Front => 0.0,
+        Direction::Back => PI,
+        Direction::Left => FRAC_PI_2,
+        Direction::Right => -FRAC_PI_2,
+        Direction::Central | Direction::Side | Direction::Between => {
+            return halving(place.arrived.distance_to(point), RELATED_HALVES_M);
+        }
+    };
+    let deviation = crate::geometry::angle_between(place.arrived.bearing_to(point), off);
+    (1.0 - deviation / FRAC_PI_2).max(0.0) * halving(place.arrived.distance_to(point), 2.0 * RELATED_HALVES_M)
+}
+
+/// How well a candidate fits a part of the room, a wall, or the door.
+pub fn to_room(reference: &str, candidate: &Furniture, direction: Direction, place: Place) -> f64 {
+    let ((near, far), (right, left)) = place.room.extent();
+    let at = place.room.entry.to_local(candidate.centre());
+    let share = |from: f64, to: f64, value: f64| ((value - from) / (to - from)).clamp(0.0, 1.0);
+    match (reference, direction) {
+        ("door", _) => halving(place.room.entry.distance_to(candidate.centre()), RELATED_HALVES_M),
+        ("wall", Direction::Side) => halving(wall_gap(candidate, place), BESIDE_HALVES_M),
+        (_, Direction::Back) => share(near, far, at.x),
+        (_, Direction::Front) => share(far, near, at.x),
+        (_, Direction::Left) => share(right, left, at.y),
+        (_, Direction::Right) => share(left, right, at.y),
+        (_, Direction::Side) => halving(wall_gap(candidate, place), 2.0 * BESIDE_HALVES_M),
+        (_, Direction::Central | Direction::Between) => {
+            1.0 - (2.0 * share(near, far, at.x) - 1.0).abs().max((2.0 * share(right, left, at.y) - 1.0).abs())
+        }
+    }
+}
+
+fn wall_gap(candidate: &Furniture, place: Place) -> f64 {
+    let gaps = place.room.outline.edges().flat_map(|(a, b)| {
+        candidate.footprint.corners().iter().map(move |&corner| crate::geometry::distance_to_segment(corner, a, b))
+    });
+    gaps.fold(f64::INFINITY, f64::min)
+}
+
+fn halving(distance: f64, metres: f64) -> f64 {
+    0.5_f64.powf(distance / metres)
+}

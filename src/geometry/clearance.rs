@@ -1,0 +1,109 @@
+//! A grid over the plane that knows, for each cell, how far the nearest obstacle is.
+
+use super::{Polygon, Vec2, distance_to_segment, vec2};
+
+/// Metres to the nearest obstacle for each cell of a grid; distances past the reach are not told apart.
+#[derive(Clone, Debug)]
+pub struct ClearanceGrid {
+    low: Vec2,
+    cell_m: f64,
+    width: usize,
+    height: usize,
+    reach_m: f64,
+    clearance: Vec<f32>,
+}
+
+/// Column and row of a cell.
+pub type Cell = (i32, i32);
+
+impl ClearanceGrid {
+    /// A grid without obstacles over the rectangle from `low` to `high`.
+    pub fn new(low: Vec2, high: Vec2, cell_m: f64, reach_m: f64) -> Self {
+        let size = (high - low) / cell_m;
+        let (width, height) = (size.x.ceil().max(1.0) as usize, size.y.ceil().max(1.0) as usize);
+        Self { low, cell_m, width, height, reach_m, clearance: vec![reach_m as f32; width * height] }
+    }
+
+    /// Side of a cell, metres.
+    pub fn cell_m(&self) -> f64 {
+        self.cell_m
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> (usize, usize) {
+        (self.width, self.height)
+    }
+
+    /// Adds a wall.
+    pub fn add_segment(&mut self, a: Vec2, b: Vec2) {
+        self.lower(a.inf(&b), a.sup(&b), |point| distance_to_segment(point, a, b));
+    }
+
+    /// Adds something solid.
+    pub fn add_polygon(&mut self, polygon: &Polygon) {
+        let (low, high) = polygon.bounds();
+        self.lower(low, high, |point| polygon.distance_to(point));
+    }
+
+    fn lower(&mut self, low: Vec2, high: Vec2, distance: impl Fn(Vec2) -> f64) {
+        let reach = Vec2::repeat(self.reach_m);
+        let (first, last) = (self.cell(low - reach), self.cell(high + reach));
+        for y in first.1.max(0)..=last.1.min(self.height as i32 - 1) {
+            for x in first.0.max(0)..=last.0.min(self.width as i32 - 1) {
+                let near = distance(self.centre((x, y))) as f32;
+                let cell = &mut self.clearance[y as usize * self.width + x as usize];
+                *cell = cell.min(near);
+            }
+        }
+    }
+
+    /// The cell that holds `point`; it may lie outside the grid.
+    pub fn cell(&self, point: Vec2) -> Cell {
+        let p = (point - self.low) / self.cell_m;
+        (p.x.floor() as i32, p.y.floor() as i32)
+    }
+
+    /// The middle of a cell.
+    pub fn centre(&self, cell: Cell) -> Vec2 {
+        self.low + vec2(f64::from(cell.0) + 0.5, f64::from(cell.1) + 0.5) * self.cell_m
+    }
+
+    /// Metres from the cell's middle to the nearest obstacle; zero outside the grid.
+    pub fn clearance(&self, cell: Cell) -> f64 {
+        let inside = cell.0 >= 0 && cell.1 >= 0 && (cell.0 as usize) < self.width && (cell.1 as usize) < self.height;
+        if inside { f64::from(self.clearance[cell.1 as usize * self.width + cell.0 as usize]) } else { 0.0 }
+    }
+
+    /// The least clearance along the straight line between two points.
+    pub fn clearance_along(&self, a: Vec2, b: Vec2) -> f64 {
+        let steps = ((b - a).norm() / (self.cell_m / 2.0)).ceil().max(1.0) as usize;
+        let at = |i: usize| self.clearance(self.cell(a + (b - a) * (i as f64 / steps as f64)));
+        (0..=steps).map(at).fold(f64::INFINITY, f64::min)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Pose;
+
+    #[test]
+    fn clearance_is_the_distance_to_the_nearest_obstacle() {
+        let mut grid = ClearanceGrid::new(vec2(0.0, 0.0), vec2(4.0, 4.0), 0.1, 1.0);
+        grid.add_segment(vec2(0.0, 0.0), vec2(4.0, 0.0));
+        grid.add_polygon(&Polygon::rectangle(Pose::new(2.0, 2.0, 0.0), 1.0, 1.0));
+        let at = |x, y| grid.clearance(grid.cell(vec2(x, y)));
+        assert!((at(2.0, 0.5) - 0.55).abs() < 0.051);
+        assert_eq!(at(2.0, 2.0), 0.0);
+        assert_eq!(at(9.0, 9.0), 0.0);
+        assert!((at(3.95, 3.95) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_line_through_an_obstacle_has_no_clearance() {
+        let mut grid = ClearanceGrid::new(vec2(0.0, 0.0), vec2(4.0, 4.0), 0.1, 1.0);
+        grid.add_polygon(&Polygon::rectangle(Pose::new(2.0, 2.0, 0.0), 1.0, 1.0));
+        assert_eq!(grid.clearance_along(vec2(0.5, 2.0), vec2(3.5, 2.0)), 0.0);
+        assert!(grid.clearance_along(vec2(0.5, 0.5), vec2(3.5, 0.5)) > 0.9);
+    }
+}

@@ -1,0 +1,223 @@
+//! The base: velocities in, odometry and sonar out, in steps of 20 ms.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use super::Obstacles;
+use crate::geometry::{Pose, vec2, wrap_angle};
+use crate::robot::{MobileBase, RobotError, SonarReading, Status, p3dx};
+
+/// Integration step, seconds.
+const STEP_S: f64 = 0.02;
+/// Sonars are read afresh at this period, seconds.
+const SONAR_PERIOD_S: f64 = 0.1;
+/// Clearance is not told apart beyond this, metres.
+const CLEARANCE_REACH_M: f64 = 1.0;
+/// A robot that touched something is free again at this distance, metres.
+const FREE_AGAIN_M: f64 = 0.02;
+/// Half of a sonar's cone, radians.
+const SONAR_HALF_CONE_RAD: f64 = 0.13;
+
+/// What is true of the simulated robot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Truth {
+    /// Where it really is.
+    pub pose: Pose,
+    /// How often it came to touch something.
+    pub collisions: u32,
+    /// The least distance between its outline and anything solid so far, metres.
+    pub min_clearance_m: f64,
+    /// Metres driven.
+    pub distance_m: f64,
+}
+
+/// A simulated P3DX. Its odometry is exact for now.
+pub struct SimulatedBase {
+    obstacles: Obstacles,
+    truth: Rc<RefCell<Truth>>,
+    velocity: (f64, f64),
+    steps: u64,
+    sonar: Vec<SonarReading>,
+    status: Status,
+    /// A lower bound of the clearance: while it stays above zero nothing need be measured.
+    slack_m: f64,
+}
+
+impl SimulatedBase {
+    /// A robot at rest at `start`.
+    pub fn new(obstacles: Obstacles, start: Pose) -> Self {
+        let truth = Truth { pose: start, min_clearance_m: CLEARANCE_REACH_M, ..Truth::default() };
+        let mut base = Self {
+            obstacles,
+            truth: Rc::new(RefCell::new(truth)),
+            velocity: (0.0, 0.0),
+            steps: 0,
+            sonar: Vec::new(),
+            status: Status::default(),
+            slack_m: 0.0,
+        };
+        base.measure_clearance();
+        base.read_sonar();
+        base
+    }
+
+    /// A handle on the truth, for the judge and the simulated eyes.
+    pub fn truth(&self) -> Rc<RefCell<Truth>> {
+        Rc::clone(&self.truth)
+    }
+
+    fn step(&mut self, linear: f64, angular: f64) {
+        self.velocity = (
+            toward(
+                self.velocity.0,
+                linear.clamp(-p3dx::SPEED_M_S, p3dx::SPEED_M_S),
+                p3dx::ACCELERATION_M_S2,
+                p3dx::BRAKING_M_S2,
+            ),
+            toward(
+                self.velocity.1,
+                angular.clamp(-p3dx::TURN_RAD_S, p3dx::TURN_RAD_S),
+                p3dx::TURN_ACCELERATION_RAD_S2,
+                p3dx::TURN_ACCELERATION_RAD_S2,
+            ),
+        );
+        let before = self.truth.borrow().pose;
+        let (v, w) = self.velocity;
+        let middle = before.heading + w * STEP_S / 2.0;
+        let after = Pose::new(
+            before.x + v * STEP_S * middle.cos(),
+            before.y + v * STEP_S * middle.sin(),
+            wrap_angle(before.heading + w * STEP_S),
+        );
+        self.truth.borrow_mut().pose = after;
+        // No point of the outline moves farther than this in a step.
+        self.slack_m -= (v.abs() + w.abs() * p3dx::SWING_M) * STEP_S;
+        if self.slack_m <= 0.0 && self.measure_clearance() <= 0.0 {
+            self.truth.borrow_mut().pose = before;
+            self.touch();
+        } else {
+            self.truth.borrow_mut().distance_m += v.abs() * STEP_S;
+        }
+        self.steps += 1;
+    }
+
+    /// The robot stays where it was, its wheels held fast.
+    fn touch(&mut self) {
+        if !self.status.stalled {
+            self.truth.borrow_mut().collisions += 1;
+        }
+        self.velocity = (0.0, 0.0);
+        self.status = Status { stalled: true, bumped: true };
+    }
+
+    fn measure_clearance(&mut self) -> f64 {
+        let mut truth = self.truth.borrow_mut();
+        let clearance = self.obstacles.clearance(&p3dx::outline(truth.pose), truth.pose.position(), CLEARANCE_REACH_M);
+        truth.min_clearance_m = truth.min_clearance_m.min(clearance);
+        // Measured again before it could be used up, often enough for the least clearance to be true to a centimetre.
+        self.slack_m = (clearance - 0.005).clamp(0.0, 0.02);
+        // Only once it has backed away is another touch another collision.
+        if clearance > FREE_AGAIN_M {
+            self.status = Status::default();
+        }
+        clearance
+    }
+
+    fn read_sonar(&mut self) {
+        let pose = self.truth.borrow().pose;
+        self.sonar = p3dx::sonars()
+            .map(|(mount, bearing)| {
+                let origin = pose.to_world(mount);
+                let range = |off: f64| {
+                    let heading = pose.heading + bearing + off;
+                    self.obstacles.range(origin, vec2(heading.cos(), heading.sin()), p3dx::SONAR_RANGE_M)
+                };
+                let range_m = [-SONAR_HALF_CONE_RAD, 0.0, SONAR_HALF_CONE_RAD]
+                    .map(range)
+                    .into_iter()
+                    .fold(f64::INFINITY, f64::min);
+                SonarReading { mount, bearing, range_m }
+            })
+            .collect();
+    }
+}
+
+/// The velocity one step later: accelerations differ for speeding up and braking.
+fn toward(now: f64, wanted: f64, accelerate: f64, brake: f64) -> f64 {
+    let braking = wanted.abs() < now.abs() || now * wanted < 0.0;
+    let most = if braking { brake } else { accelerate } * STEP_S;
+    now + (wanted - now).clamp(-most, most)
+}
+
+impl MobileBase for SimulatedBase {
+    fn pose(&self) -> Pose {
+        self.truth.borrow().pose
+    }
+
+    fn velocity(&self) -> (f64, f64) {
+        self.velocity
+    }
+
+    fn time_s(&self) -> f64 {
+        self.steps as f64 * STEP_S
+    }
+
+    fn drive(&mut self, linear: f64, angular: f64, seconds: f64) -> Result<(), RobotError> {
+        let steps = (seconds / STEP_S).round() as u64;
+        for _ in 0..steps {
+            self.step(linear, angular);
+            if self.steps.is_multiple_of((SONAR_PERIOD_S / STEP_S).round() as u64) {
+                self.read_sonar();
+            }
+        }
+        Ok(())
+    }
+
+    fn sonar(&self) -> &[SonarReading] {
+        &self.sonar
+    }
+
+    fn status(&self) -> Status {
+        self.status
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::{RoomMap, Scene};
+
+    fn base_at(pose: Pose) -> SimulatedBase {
+        SimulatedBase::new(Obstacles::new(&RoomMap::apartment(), &Scene::apartment()), pose)
+    }
+
+    #[test]
+    fn it_speeds_up_no_faster_than_the_real_one() {
+        let mut base = base_at(Pose::new(0.0, 0.0, 0.0));
+        base.drive(0.5, 0.0, 1.0).expect("drives");
+        assert!((base.velocity().0 - 0.3).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_turn_in_place_stays_in_place() {
+        let mut base = base_at(Pose::new(0.0, 0.0, 0.0));
+        base.drive(0.0, 1.0, 2.0).expect("turns");
+        assert!(base.pose().position().norm() < 1e-12 && base.pose().heading > 1.0);
+    }
+
+    #[test]
+    fn a_wall_stops_it_and_is_counted_once() {
+        let mut base = base_at(Pose::new(6.0, 0.0, 0.0));
+        base.drive(0.5, 0.0, 8.0).expect("drives");
+        let truth = base.truth().borrow().clone();
+        assert!(base.status().stalled && truth.collisions == 1, "{truth:?}");
+        assert!(truth.pose.x < 7.2 - p3dx::FRONT_M + 1e-6 && truth.pose.x > 6.9);
+    }
+
+    #[test]
+    fn the_front_sonar_measures_the_wall_ahead() {
+        let base = base_at(Pose::new(6.0, 0.0, 0.0));
+        let front = base.sonar()[3];
+        assert!((front.range_m - (7.2 - 6.166)).abs() < 0.05, "{front:?}");
+    }
+}

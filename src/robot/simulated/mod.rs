@@ -1,0 +1,11 @@
+//! A simulated Pioneer 3-DX among the furniture of a scene.
+//!
+//! What it reports is what the executive may use. The truth – where it really
+//! is, what it touched – is read from a [`Truth`] handle, which only a judge
+//! and the simulated eyes hold.
+
+mod base;
+mod obstacles;
+
+pub use base::{SimulatedBase, Truth};
+pub use obstacles::Obstacles;

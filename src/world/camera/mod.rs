@@ -1,0 +1,97 @@
+//! What a camera on the robot's tower sees of a scene: who hides whom, and pictures.
+//!
+//! Rays are cast against the solids; nothing here knows of sensor faults.
+
+mod picture;
+mod solids;
+mod visibility;
+
+pub use picture::{Picture, render};
+pub use solids::{SolidScene, Surface};
+pub use visibility::{Seen, Visibility};
+
+use crate::geometry::{Pose, Vec2, vec2};
+use crate::world::solid::Ray;
+
+/// A pinhole camera on the robot's tower, looking ahead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Pixels.
+    pub width: usize,
+    /// Pixels.
+    pub height: usize,
+    /// Focal length, pixels.
+    pub focal: f64,
+    /// Metres above the floor.
+    pub tower_m: f64,
+    /// Looking down by this much, radians.
+    pub tilt: f64,
+    /// Nearer than this the sensor is blind, metres.
+    pub near_m: f64,
+}
+
+impl Camera {
+    /// A Kinect at 640 × 480 with 62.7° × 49.1°, 1.2 m up, 15° down.
+    pub fn kinect() -> Self {
+        Self { width: 640, height: 480, focal: 525.0, tower_m: 1.2, tilt: 15.0_f64.to_radians(), near_m: 0.1 }
+    }
+
+    /// The same view with fewer pixels.
+    pub fn coarser(self, factor: usize) -> Self {
+        let f = factor as f64;
+        Self { width: self.width / factor, height: self.height / factor, focal: self.focal / f, ..self }
+    }
+
+    /// The ray through a pixel (column to the right, row downward) of a robot at `pose`.
+    ///
+    /// One unit of its direction is one metre along the optical axis, so a hit's distance is its depth.
+    pub fn ray(&self, pose: Pose, column: f64, row: f64) -> Ray {
+        let right = (column - (self.width as f64 - 1.0) / 2.0) / self.focal;
+        let down = (row - (self.height as f64 - 1.0) / 2.0) / self.focal;
+        let (sin, cos) = self.tilt.sin_cos();
+        let ahead = cos - down * sin;
+        let direction = pose.forward() * ahead + vec2(pose.heading.sin(), -pose.heading.cos()) * right;
+        Ray { origin: pose.position(), height: self.tower_m, direction, climb: -sin - down * cos }
+    }
+
+    /// Column, row and depth of a point in space; nothing behind the camera.
+    pub fn project(&self, pose: Pose, point: Vec2, height: f64) -> Option<(f64, f64, f64)> {
+        let local = pose.to_local(point);
+        let (sin, cos) = self.tilt.sin_cos();
+        let up = height - self.tower_m;
+        let depth = local.x * cos - up * sin;
+        if depth < self.near_m {
+            return None;
+        }
+        let down = -local.x * sin - up * cos;
+        let column = (self.width as f64 - 1.0) / 2.0 - self.focal * local.y / depth;
+        let row = (self.height as f64 - 1.0) / 2.0 + self.focal * down / depth;
+        Some((column, row, depth))
+    }
+
+    /// Whether a pixel lies in the picture.
+    pub fn shows(&self, column: f64, row: f64) -> bool {
+        (-0.5..self.width as f64 - 0.5).contains(&column) && (-0.5..self.height as f64 - 0.5).contains(&row)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn projecting_a_point_on_a_pixels_ray_gives_that_pixel() {
+        let camera = Camera::kinect();
+        let pose = Pose::new(1.0, 2.0, 0.6);
+        let ray = camera.ray(pose, 100.0, 400.0);
+        let (column, row, depth) =
+            camera.project(pose, ray.origin + ray.direction * 2.5, ray.height + ray.climb * 2.5).expect("ahead");
+        assert!((column - 100.0).abs() < 1e-9 && (row - 400.0).abs() < 1e-9 && (depth - 2.5).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_lies_to_the_left_is_left_in_the_picture() {
+        let (column, _, _) = Camera::kinect().project(Pose::default(), vec2(2.0, 0.5), 0.5).expect("ahead");
+        assert!(column < 319.5);
+    }
+}

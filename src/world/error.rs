@@ -1,0 +1,66 @@
+//! What can be wrong with a world file.
+
+use std::path::Path;
+
+use serde::de::DeserializeOwned;
+
+/// A world that cannot be used, and why.
+#[derive(Debug, thiserror::Error)]
+pub enum WorldError {
+    /// The file cannot be read.
+    #[error("{file}: {source}")]
+    Unreadable {
+        /// The file.
+        file: String,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The file is not JSON, or not in the form of its schema.
+    #[error("{file}:{line}:{column}: {message}")]
+    Malformed {
+        /// The file.
+        file: String,
+        /// 1-based.
+        line: usize,
+        /// 1-based, in bytes.
+        column: usize,
+        /// What is wrong.
+        message: String,
+    },
+    /// The file is in a version that is not understood.
+    #[error("{file}: version {found} of the format; this program reads version {known}")]
+    Version {
+        /// The file.
+        file: String,
+        /// The version it says.
+        found: u32,
+        /// The version understood.
+        known: u32,
+    },
+    /// Something in the world cannot be.
+    #[error("{file}: {item}: {message}")]
+    Wrong {
+        /// The file.
+        file: String,
+        /// The room, door, furniture or object.
+        item: String,
+        /// What is wrong with it, and what mends it.
+        message: String,
+    },
+}
+
+/// The text of a file.
+pub(super) fn read(path: &Path) -> Result<String, WorldError> {
+    let file = path.display().to_string();
+    std::fs::read_to_string(path).map_err(|source| WorldError::Unreadable { file, source })
+}
+
+/// Parses a world file, naming the place of what is wrong.
+pub(super) fn parse<T: DeserializeOwned>(text: &str, file: &str) -> Result<T, WorldError> {
+    serde_json::from_str(text).map_err(|error| WorldError::Malformed {
+        file: file.to_string(),
+        line: error.line(),
+        column: error.column(),
+        message: crate::record::message_without_position(&error),
+    })
+}

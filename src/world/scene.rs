@@ -1,0 +1,254 @@
+//! The scene: the furniture and objects that are truly there. Never given to the executive.
+
+use std::path::Path;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::RoomMap;
+use super::error::{WorldError, parse, read};
+use super::furniture::{self, Category, Shape, Size, SmallObject};
+use super::solid::{Color, Solid};
+use crate::geometry::{Polygon, Pose, Vec2, vec2};
+
+/// Furniture and objects, on a room map.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Version of this format: 1.
+    pub version: u32,
+    /// Name of the arrangement.
+    pub name: String,
+    /// Name of the room map it stands on.
+    pub map: String,
+    /// The furniture.
+    pub furniture: Vec<Item>,
+    /// The portable objects.
+    #[serde(default)]
+    pub objects: Vec<PlacedObject>,
+}
+
+/// A piece of furniture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Item {
+    /// Name of the piece.
+    pub id: String,
+    /// Its category, one of those `docs/world.md` lists.
+    pub category: String,
+    /// Middle of the footprint, metres.
+    pub x: f64,
+    /// Middle of the footprint, metres.
+    pub y: f64,
+    /// Heading of the front, degrees counter-clockwise from east.
+    #[serde(default)]
+    pub yaw_deg: f64,
+    /// Metres along the front's heading, where it is not the category's usual one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
+    /// Metres across it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
+    /// Metres above the floor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<f64>,
+    /// Red, green, blue.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+    /// Words that hold for it, where they are not the category's: "white", "square".
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub attributes: Vec<String>,
+}
+
+/// A portable object on a piece of furniture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlacedObject {
+    /// Name of this one.
+    pub id: String,
+    /// What it is: `mug`.
+    pub name: String,
+    /// The furniture it lies on.
+    pub on: String,
+    /// From the middle of the top, along the furniture's front heading, metres.
+    #[serde(default)]
+    pub forward: f64,
+    /// From the middle of the top, to the furniture's left, metres.
+    #[serde(default)]
+    pub left: f64,
+    /// Turned against the furniture's front, degrees.
+    #[serde(default)]
+    pub yaw_deg: f64,
+}
+
+/// What a category that is not known looks like; `check` refuses it before anyone sees it.
+const UNKNOWN: Category = Category {
+    name: "unknown",
+    noun: "unknown",
+    shape: Shape::Cabinet,
+    size: Size { length: 0.5, width: 0.5, height: 0.5 },
+    color: [128; 3],
+    attributes: &[],
+};
+
+impl Item {
+    /// Position and the heading of the front.
+    pub fn pose(&self) -> Pose {
+        Pose::new(self.x, self.y, self.yaw_deg.to_radians())
+    }
+
+    /// The category's description.
+    pub fn kind(&self) -> &'static Category {
+        furniture::category(&self.category).unwrap_or(&UNKNOWN)
+    }
+
+    /// Its size.
+    pub fn size(&self) -> Size {
+        let usual = self.kind().size;
+        Size {
+            length: self.length.unwrap_or(usual.length),
+            width: self.width.unwrap_or(usual.width),
+            height: self.height.unwrap_or(usual.height),
+        }
+    }
+
+    /// Its outline on the floor.
+    pub fn footprint(&self) -> Polygon {
+        furniture::footprint(self.kind().shape, self.pose(), self.size())
+    }
+
+    /// Whether it has a front: a table has none.
+    pub fn has_front(&self) -> bool {
+        !matches!(
+            self.kind().shape,
+            Shape::Table | Shape::RoundTable | Shape::HexagonTable | Shape::Stool | Shape::Lamp
+        )
+    }
+
+    /// What can be said of its looks.
+    pub fn attributes(&self) -> Vec<String> {
+        if self.attributes.is_empty() {
+            self.kind().attributes.iter().map(|a| (*a).to_string()).collect()
+        } else {
+            self.attributes.clone()
+        }
+    }
+
+    /// The solids it is composed of.
+    pub fn solids(&self) -> Vec<Solid> {
+        let kind = self.kind();
+        furniture::solids(kind.shape, self.pose(), self.size(), self.color.unwrap_or(kind.color))
+    }
+}
+
+impl PlacedObject {
+    fn kind(&self) -> SmallObject {
+        let unusual = SmallObject {
+            name: "object",
+            size: Size { length: 0.12, width: 0.12, height: 0.1 },
+            color: [180, 60, 160],
+        };
+        furniture::object(&self.name).copied().unwrap_or(unusual)
+    }
+
+    /// Where it lies on `furniture`: its middle and heading.
+    pub fn pose_on(&self, furniture: &Item) -> Pose {
+        let at = furniture.pose().to_world(vec2(self.forward, self.left));
+        Pose::new(at.x, at.y, furniture.pose().heading + self.yaw_deg.to_radians())
+    }
+
+    /// Its size.
+    pub fn size(&self) -> Size {
+        self.kind().size
+    }
+
+    /// The solids it is composed of, on `furniture`.
+    pub fn solids_on(&self, furniture: &Item) -> Vec<Solid> {
+        let kind = self.kind();
+        furniture::object_solids(&self.name, self.pose_on(furniture), kind.size, furniture.size().height, kind.color)
+    }
+}
+
+impl Scene {
+    /// The paper's apartment as furnished in its Fig. 3.
+    pub fn apartment() -> Self {
+        Self::embedded(include_str!("../../fixtures/apartment.scene.json"))
+    }
+
+    /// The apartment with its furniture moved, after the idea of the paper's Fig. 4.
+    pub fn apartment_modified() -> Self {
+        Self::embedded(include_str!("../../fixtures/apartment-modified.scene.json"))
+    }
+
+    fn embedded(text: &str) -> Self {
+        // Embedded and tested: it cannot fail.
+        parse(text, "embedded").unwrap_or_else(|_| Self {
+            version: 1,
+            name: String::new(),
+            map: String::new(),
+            furniture: Vec::new(),
+            objects: Vec::new(),
+        })
+    }
+
+    /// Reads a scene and checks it against its room map.
+    pub fn load(path: &Path, map: &RoomMap) -> Result<Self, WorldError> {
+        Self::from_json(&read(path)?, &path.display().to_string(), map)
+    }
+
+    /// Parses a scene and checks it against its room map; `file` is named in errors.
+    pub fn from_json(text: &str, file: &str, map: &RoomMap) -> Result<Self, WorldError> {
+        let scene: Self = parse(text, file)?;
+        super::check(&scene, map, file)?;
+        Ok(scene)
+    }
+
+    /// The piece of that id.
+    pub fn item(&self, id: &str) -> Option<&Item> {
+        self.furniture.iter().find(|item| item.id == id)
+    }
+
+    /// The piece at a point, or nearest to it within half a metre.
+    pub fn furniture_at(&self, point: Vec2) -> Option<&Item> {
+        let near = |item: &Item| item.footprint().distance_to(point);
+        let best = self.furniture.iter().min_by(|a, b| near(a).total_cmp(&near(b)))?;
+        (near(best) < 0.5).then_some(best)
+    }
+
+    /// The pieces on which an object of that name lies.
+    pub fn holders_of(&self, name: &str) -> Vec<&Item> {
+        self.objects.iter().filter(|object| object.name == name).filter_map(|object| self.item(&object.on)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_apartments_are_sound() {
+        let map = RoomMap::apartment();
+        for (text, file) in [
+            (include_str!("../../fixtures/apartment.scene.json"), "apartment.scene.json"),
+            (include_str!("../../fixtures/apartment-modified.scene.json"), "apartment-modified.scene.json"),
+        ] {
+            let scene = Scene::from_json(text, file, &map).expect("a sound scene");
+            assert_eq!((scene.furniture.len(), scene.objects.len()), (12, 6));
+        }
+    }
+
+    #[test]
+    fn the_fork_lies_on_the_round_table_by_the_couch() {
+        let scene = Scene::apartment();
+        assert_eq!(scene.holders_of("fork")[0].id, "round-table-1");
+        assert_eq!(scene.furniture_at(vec2(4.1, 2.1)).map(|item| item.id.as_str()), Some("round-table-1"));
+        assert!(scene.furniture_at(vec2(0.0, 0.0)).is_none());
+    }
+
+    #[test]
+    fn the_couch_is_wider_than_deep_and_faces_away_from_the_door() {
+        let couch = Scene::apartment().item("couch-1").expect("a couch").footprint();
+        let (low, high) = couch.bounds();
+        assert!((high.x - low.x - 2.06).abs() < 1e-9 && (high.y - low.y - 0.73).abs() < 1e-9);
+    }
+}
