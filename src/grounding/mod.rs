@@ -1,1 +1,21 @@
 //! Chunk tree → room, RDT nodes and object. Never sees a map.
+//!
+//! Two methods: [`Method::Composed`] reads what the words of each chunk mean;
+//! [`Method::Paper`] finds the nearest labelled example by the published
+//! equations. Both give each chunk a [`Meaning`], which [`assemble`] puts
+//! together.
+
+mod assemble;
+mod composed;
+mod grounder;
+mod meaning;
+pub mod paper;
+mod stage;
+mod table;
+mod words;
+
+pub use assemble::assemble;
+pub use grounder::{Grounder, Method};
+pub use meaning::Meaning;
+pub use stage::GroundStage;
+pub use words::{ChunkWords, chunk_words};

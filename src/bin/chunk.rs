@@ -1,0 +1,50 @@
+//! Text in, tokens and chunk tree out.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
+use spatial_fetch::language::Chunker;
+use spatial_fetch::record::{Chunk, Token};
+
+/// Finds the phrases of a spatial description: rooms, moves, places, furniture, objects.
+///
+/// Reads records with "text", or plain lines of text, and adds "tokens" and "chunks".
+#[derive(Parser)]
+#[command(
+    name = "chunk",
+    version,
+    after_help = "Example:\n  echo 'the mug is in the bedroom on the table' | chunk --format text"
+)]
+struct Arguments {
+    /// Name the rule behind each chunk
+    #[arg(long)]
+    explain: bool,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// What `chunk` adds to a record.
+#[derive(schemars::JsonSchema)]
+#[allow(dead_code)]
+struct Chunked {
+    tokens: Vec<Token>,
+    chunks: Vec<Chunk>,
+}
+
+impl Program for Arguments {
+    const NAME: &'static str = "chunk";
+    fn common(&self) -> &Common {
+        &self.common
+    }
+    fn schema() -> schemars::Schema {
+        schemars::schema_for!(Chunked)
+    }
+    fn run(self) -> Result<Exit, Failure> {
+        cli::run_filter(Self::NAME, &self.common, Intake::RecordsOrText, &Chunker { explain: self.explain })
+    }
+}
+
+fn main() -> ExitCode {
+    cli::main::<Arguments>()
+}

@@ -1,0 +1,137 @@
+//! Meanings of chunks → room, nodes, object: the paper's RDT assembly.
+
+use super::meaning::Meaning;
+use super::words::ChunkWords;
+use crate::record::{Grounding, Node, ObjectSlot, Pair, RoomSlot, Tag};
+
+/// Puts the chunks' meanings together, in pre-order.
+///
+/// References inside or beside a target's phrase are that node's pairs; moves
+/// and places on their own make nodes of their own; a target said again
+/// without anything new adds none.
+pub fn assemble(chunks: &[ChunkWords], meanings: &[Meaning]) -> Grounding {
+    let mut grounding =
+        Grounding { room: room_of(chunks, meanings), object: object_of(chunks, meanings), ..Grounding::default() };
+    let mut waiting: Vec<Pair> = Vec::new();
+    for (i, (chunk, meaning)) in chunks.iter().zip(meanings).enumerate() {
+        let in_target = chunk.parent.is_some_and(|parent| is_group(chunks[parent].tag));
+        match chunk.tag {
+            Tag::Furtp => {
+                let mut node = target_node(i, chunks, meanings);
+                node.pairs.splice(0..0, waiting.drain(..));
+                push_target(&mut grounding.nodes, node);
+            }
+            Tag::Irmrp | Tag::Furrp | Tag::Obrp | Tag::Pers if !in_target => {
+                let pairs = with_children(i, chunks, meanings);
+                if pairs.is_empty() {
+                    continue;
+                }
+                // "behind the couch, on a table": a place right before a target helps to find it.
+                if leads_to_target(i, chunks) && is_static(meaning) {
+                    waiting.extend(pairs);
+                } else {
+                    let score = meaning.score.into();
+                    grounding.nodes.push(Node { pairs, score, ..Node::default() });
+                }
+            }
+            _ => {}
+        }
+    }
+    if !waiting.is_empty() {
+        grounding.nodes.push(Node { pairs: waiting, score: 0.8.into(), ..Node::default() });
+    }
+    grounding
+}
+
+/// Chunks whose inner references belong to them.
+fn is_group(tag: Tag) -> bool {
+    matches!(tag, Tag::Furtp | Tag::Furrp)
+}
+
+fn is_static(meaning: &Meaning) -> bool {
+    meaning.pairs.iter().all(|pair| pair.reference != "move")
+}
+
+/// Whether the next chunk of the same parent that is no place is a target, within a clause about the object.
+fn leads_to_target(index: usize, chunks: &[ChunkWords]) -> bool {
+    let Some(parent) = chunks[index].parent.filter(|&parent| chunks[parent].tag == Tag::Obtp) else { return false };
+    let after = chunks[parent].children.iter().filter(|&&child| child > index);
+    after.map(|&child| chunks[child].tag).find(|tag| !matches!(tag, Tag::Irmrp | Tag::Furrp | Tag::Obrp | Tag::Pers))
+        == Some(Tag::Furtp)
+}
+
+/// The pairs of a chunk and of the chunks in it, in the order spoken.
+fn with_children(index: usize, chunks: &[ChunkWords], meanings: &[Meaning]) -> Vec<Pair> {
+    let mut parts: Vec<(usize, usize)> = vec![(own_place(&chunks[index]), index)];
+    parts.extend(
+        chunks[index]
+            .children
+            .iter()
+            .filter(|&&child| !matches!(chunks[child].tag, Tag::Furtp | Tag::Obtp))
+            .map(|&child| (chunks[child].start, child)),
+    );
+    parts.sort_unstable();
+    let pairs = parts.into_iter().flat_map(|(_, part)| {
+        if part == index { meanings[part].pairs.clone() } else { with_children(part, chunks, meanings) }
+    });
+    pairs.collect()
+}
+
+/// Where a chunk's own words begin.
+fn own_place(chunk: &ChunkWords) -> usize {
+    chunk.words.first().map_or(chunk.start, |word| word.start)
+}
+
+fn target_node(index: usize, chunks: &[ChunkWords], meanings: &[Meaning]) -> Node {
+    let meaning = &meanings[index];
+    Node {
+        target: meaning.target.clone(),
+        attributes: meaning.attributes.clone(),
+        ordinal: meaning.ordinal,
+        pairs: with_children(index, chunks, meanings),
+        score: meaning.score.into(),
+    }
+}
+
+/// A target without anything of its own that was just said is no new node: "… on that table".
+fn push_target(nodes: &mut Vec<Node>, node: Node) {
+    let bare = node.pairs.is_empty();
+    if node.target.is_none() && bare {
+        return;
+    }
+    let again = nodes.iter_mut().rev().find(|known| known.target.is_some() && known.target == node.target);
+    match again {
+        Some(known) if bare => known.attributes.extend(node.attributes),
+        _ => nodes.push(node),
+    }
+}
+
+/// The first side said picks the room; the first name names it.
+fn room_of(chunks: &[ChunkWords], meanings: &[Meaning]) -> Option<RoomSlot> {
+    let rooms = || {
+        chunks.iter().zip(meanings).filter(|(chunk, _)| matches!(chunk.tag, Tag::Ormtp | Tag::Ormrp)).map(|(_, m)| m)
+    };
+    let name = rooms().find_map(|meaning| meaning.room.clone());
+    let side = rooms().find_map(|meaning| meaning.side);
+    let ordinal = rooms().find_map(|meaning| meaning.ordinal);
+    let score = rooms().filter(|m| m.room.is_some() || m.side.is_some()).map(|m| m.score).fold(1.0, f64::min);
+    (name.is_some() || side.is_some()).then(|| RoomSlot { name, side, ordinal, score: score.into() })
+}
+
+/// The best-scored object; the first of equals.
+fn object_of(chunks: &[ChunkWords], meanings: &[Meaning]) -> Option<ObjectSlot> {
+    let named = chunks
+        .iter()
+        .zip(meanings)
+        .filter(|(chunk, _)| chunk.tag == Tag::Obtp)
+        .filter_map(|(_, m)| Some((m.object.as_ref()?, m)));
+    let best = named.fold(None, |best: Option<(&String, &Meaning)>, next| match best {
+        Some(known) if known.1.score >= next.1.score => Some(known),
+        _ => Some(next),
+    });
+    best.map(|(name, meaning)| ObjectSlot {
+        name: name.clone(),
+        attributes: meaning.attributes.clone(),
+        score: meaning.score.into(),
+    })
+}

@@ -1,0 +1,283 @@
+//! The meaning of a chunk from what its words mean: lexicon classes, head nouns, prepositions, verbs, modifiers.
+
+use super::meaning::{Meaning, pair};
+use super::words::ChunkWords;
+use crate::language::{Class, Lexicon, Relation, Role, Unit, UnitKind, leading_relation, units};
+use crate::record::{Amount, Direction, Tag};
+
+/// What the own words of `chunk` mean.
+pub fn meaning_of(chunk: &ChunkWords, lexicon: &Lexicon) -> Meaning {
+    let units = units(&chunk.words, lexicon);
+    let words = Words { units: &units };
+    match chunk.tag {
+        Tag::Ormtp | Tag::Ormrp => words.room(),
+        Tag::Irmrp => words.place(),
+        Tag::Furtp => words.target(),
+        Tag::Furrp => words.landmark(Class::is_furniture),
+        Tag::Obrp => words.landmark(|_| true),
+        Tag::Obtp => words.object(),
+        Tag::Pers => words.side().map_or_else(Meaning::default, |side| Meaning::of_pair("robot", side, "whose side")),
+        Tag::Conf => Meaning { score: 1.0, because: "taken back by the speaker".to_string(), ..Meaning::default() },
+    }
+}
+
+struct Words<'u> {
+    units: &'u [Unit<'u>],
+}
+
+impl Words<'_> {
+    fn has(&self, words: &[&str]) -> bool {
+        self.units.iter().any(|unit| words.contains(&unit.lower.as_str()))
+    }
+
+    fn has_role(&self, role: Role) -> bool {
+        self.units.iter().any(|unit| unit.role() == Some(role))
+    }
+
+    fn noun(&self, fits: impl Fn(Class) -> bool) -> Option<&str> {
+        self.nouns(fits).next()
+    }
+
+    fn nouns(&self, fits: impl Fn(Class) -> bool) -> impl Iterator<Item = &str> {
+        self.units.iter().filter_map(move |unit| match unit.kind {
+            UnitKind::Noun(name, class) if fits(class) => Some(name),
+            _ => None,
+        })
+    }
+
+    /// The last side said: "left or … right" has been corrected.
+    fn side(&self) -> Option<Direction> {
+        self.units.iter().rev().find_map(|unit| match (unit.role(), unit.lower.as_str()) {
+            (Some(Role::Side), "left") => Some(Direction::Left),
+            (Some(Role::Side), "right") => Some(Direction::Right),
+            _ => None,
+        })
+    }
+
+    fn ordinal(&self) -> Option<u32> {
+        let names = ["first", "second", "third", "fourth"];
+        self.units.iter().find_map(|unit| names.iter().position(|name| *name == unit.lower)).map(|at| at as u32 + 1)
+    }
+
+    fn attributes(&self) -> Vec<String> {
+        let told = self.units.iter().filter(|unit| unit.role() == Some(Role::Adjective));
+        told.map(|unit| unit.lower.clone()).filter(|word| !matches!(word.as_str(), "other" | "same")).collect()
+    }
+
+    /// "three steps", "2 m", "forty five degrees".
+    fn amount(&self) -> Option<Amount> {
+        let unit_at = self.units.iter().position(|unit| {
+            matches!(unit.role(), Some(Role::Step | Role::FootUnit | Role::MetreUnit | Role::DegreeUnit))
+                || unit.lower == "step"
+        })?;
+        let number = self.units[..unit_at].iter().rev().find_map(|unit| number(&unit.lower))?;
+        Some(match self.units[unit_at].role() {
+            Some(Role::FootUnit) => Amount::Meters((number * 0.3048 * 100.0).round() / 100.0),
+            Some(Role::MetreUnit) => Amount::Meters(number),
+            Some(Role::DegreeUnit) => Amount::Degrees(number),
+            _ => Amount::Steps(number),
+        })
+    }
+
+    fn room(&self) -> Meaning {
+        let room = self
+            .noun(|class| class == Class::Room)
+            .filter(|name| !matches!(*name, "room" | "hallway" | "intersection"));
+        let side = self.side();
+        let because = match (room, side) {
+            (Some(room), Some(side)) => format!("names `{room}`, on the {}", side.name()),
+            (Some(room), None) => format!("names `{room}`"),
+            (None, Some(side)) => format!("says {}", side.name()),
+            (None, None) => "says neither name nor side".to_string(),
+        };
+        let score = if room.is_some() || side.is_some() { 0.95 } else { 0.5 };
+        Meaning { room: room.map(str::to_string), side, ordinal: self.ordinal(), score, because, ..Meaning::default() }
+    }
+
+    /// A place or a move inside the room.
+    fn place(&self) -> Meaning {
+        self.wall()
+            .or_else(|| self.door())
+            .or_else(|| self.part_of_room())
+            .or_else(|| self.motion())
+            .or_else(|| self.hearer())
+            .unwrap_or(Meaning { because: "no place or move in these words".to_string(), ..Meaning::default() })
+    }
+
+    fn moves(&self) -> bool {
+        [Role::Motion, Role::Turn, Role::Reach, Role::Look].into_iter().any(|role| self.has_role(role))
+            || self.has(&["step"])
+    }
+
+    fn wall(&self) -> Option<Meaning> {
+        self.noun(|class| class == Class::Wall)?;
+        let direction = match self.side() {
+            Some(side) => side,
+            None if self.has(&["back", "far", "rear", "end", "opposite", "other"]) => Direction::Back,
+            None if self.has(&["front"]) => Direction::Front,
+            None => Direction::Side,
+        };
+        Some(Meaning::of_pair("wall", direction, "a wall"))
+    }
+
+    fn door(&self) -> Option<Meaning> {
+        let beginning = self.has(&["beginning"]);
+        if self.noun(|class| class == Class::Opening).is_none() && !beginning {
+            return None;
+        }
+        let direction = match leading_relation(self.units) {
+            Some(Relation::Landmark(direction)) => direction,
+            _ => Direction::Side,
+        };
+        Some(Meaning::of_pair("door", direction, "the door"))
+    }
+
+    fn part_of_room(&self) -> Option<Meaning> {
+        let far = self.has(&["far"]);
+        let corner = self.noun(|class| class == Class::Part).is_some();
+        if corner
+            && (far || self.has(&["back"]))
+            && let Some(side) = self.side()
+        {
+            let pairs = vec![pair("room", side), pair("room", Direction::Back)];
+            return Some(Meaning { pairs, score: 0.9, because: "a far corner".to_string(), ..Meaning::default() });
+        }
+        if self.has(&["halfway", "half"]) {
+            return Some(
+                Meaning::of_pair("room", Direction::Central, "halfway in").with_amount(Some(Amount::Fraction(0.5))),
+            );
+        }
+        if self.has(&["middle", "center", "centre"]) {
+            return Some(Meaning::of_pair("room", Direction::Central, "the middle of the room"));
+        }
+        let of_room = self.noun(|class| class == Class::Room).is_some();
+        if (far || of_room || self.has(&["end"]))
+            && !self.has_role(Role::Turn)
+            && let Some(side) = self.side()
+        {
+            return Some(Meaning::of_pair("room", side, "a side of the room"));
+        }
+        let goes_back = self.has_role(Role::Motion) && !self.has_role(Role::Preposition);
+        if far || self.has(&["end", "rear", "opposite", "across", "other"]) || self.has(&["back"]) && !goes_back {
+            return Some(Meaning::of_pair("room", Direction::Back, "the far end of the room"));
+        }
+        if corner {
+            return Some(Meaning::of_pair("room", Direction::Side, "a corner"));
+        }
+        let front = self.has(&["front"]) && of_room;
+        front.then(|| Meaning::of_pair("room", Direction::Front, "the front of the room"))
+    }
+
+    fn motion(&self) -> Option<Meaning> {
+        if self.has(&["around", "back"]) && self.moves() && self.side().is_none() {
+            return Some(Meaning::of_pair("move", Direction::Back, "turn round"));
+        }
+        let bare = self.units.first().is_some_and(|unit| unit.role() == Some(Role::Side));
+        if let Some(side) = self.side() {
+            let turned = self.moves() || self.has_role(Role::Again) || bare;
+            let amount = self.amount().filter(|amount| matches!(amount, Amount::Degrees(d) if *d != 90.0));
+            return turned.then(|| Meaning::of_pair("move", side, "a turn").with_amount(amount));
+        }
+        let forward = self.has(&["forward", "forwards", "straight"]) && !self.has(&["ahead"]);
+        (self.moves() || forward)
+            .then(|| Meaning::of_pair("move", Direction::Front, "a move ahead").with_amount(self.amount()))
+    }
+
+    fn hearer(&self) -> Option<Meaning> {
+        let direction = match self.side() {
+            Some(side) => side,
+            None if self.has(&["behind"]) => Direction::Back,
+            None if self.has(&["ahead", "front", "straight"]) => Direction::Front,
+            None => return None,
+        };
+        Some(Meaning::of_pair("robot", direction, "a side of the hearer"))
+    }
+
+    fn target(&self) -> Meaning {
+        let Some(noun) = self.nouns(Class::is_furniture).last() else {
+            return Meaning { because: "no furniture in these words".to_string(), ..Meaning::default() };
+        };
+        let mut meaning = Meaning {
+            target: Some(noun.to_string()),
+            attributes: self.attributes(),
+            ordinal: self.ordinal(),
+            score: 0.95,
+            because: format!("names `{noun}`"),
+            ..Meaning::default()
+        };
+        let before_noun = |words: &[&str]| {
+            let at = self.units.iter().position(|unit| unit.class().is_some()).unwrap_or(0);
+            self.units[..at].iter().skip(1).any(|unit| words.contains(&unit.lower.as_str()))
+                && !self.has(&["of", "middle", "edge", "top"])
+        };
+        if before_noun(&["back", "far"]) {
+            meaning.pairs.push(pair("room", Direction::Back));
+            meaning.because.push_str(", the far one");
+        }
+        meaning
+    }
+
+    fn landmark(&self, fits: impl Fn(Class) -> bool + Copy) -> Meaning {
+        let nouns: Vec<&str> = self.nouns(fits).collect();
+        let Some(reference) = nouns.first() else {
+            return Meaning { because: "no landmark in these words".to_string(), ..Meaning::default() };
+        };
+        let direction = match leading_relation(self.units) {
+            Some(Relation::Landmark(direction)) => direction,
+            _ => self.side().unwrap_or(Direction::Side),
+        };
+        let mut pairs = vec![pair(reference, direction)];
+        pairs[0].ordinal = self.ordinal();
+        if let Some(second) = nouns.get(1).filter(|second| *second != reference) {
+            if direction == Direction::Between {
+                pairs[0].and = Some((*second).to_string());
+            }
+            pairs.push(pair(second, direction));
+        }
+        // The second reference of "between" is told within the pair as well; scoring wants both named.
+        let because = format!("`{reference}` as landmark, {}", direction.name());
+        Meaning { pairs, score: 0.9, because, ..Meaning::default() }
+    }
+
+    fn object(&self) -> Meaning {
+        let known = self.nouns(|class| class == Class::Object).last().map(str::to_string);
+        let (object, score) = match known {
+            Some(name) => (Some(name), 0.97),
+            None => (self.unknown_noun(), 0.6),
+        };
+        let because = object.as_ref().map_or("names no object".to_string(), |name| format!("names `{name}`"));
+        Meaning { object, attributes: self.attributes(), score, because, ..Meaning::default() }
+    }
+
+    /// The last word the lexicon does not have, before the clause's verb: "the widget is".
+    fn unknown_noun(&self) -> Option<String> {
+        let clause = self.units.iter().position(|unit| matches!(unit.role(), Some(Role::Copula | Role::Modal)));
+        let before = &self.units[..clause.filter(|at| *at > 0).unwrap_or(self.units.len())];
+        let article = |unit: &Unit| matches!(unit.role(), Some(Role::Determiner | Role::Hearer));
+        before.iter().any(article).then_some(())?;
+        before.iter().rev().find(|unit| unit.kind == UnitKind::Unknown).map(|unit| unit.lower.replace('-', "_"))
+    }
+}
+
+fn number(word: &str) -> Option<f64> {
+    let named = [
+        ("one", 1.0),
+        ("a", 1.0),
+        ("couple", 2.0),
+        ("two", 2.0),
+        ("three", 3.0),
+        ("few", 3.0),
+        ("four", 4.0),
+        ("five", 5.0),
+        ("six", 6.0),
+        ("seven", 7.0),
+        ("eight", 8.0),
+        ("nine", 9.0),
+        ("ten", 10.0),
+        ("twelve", 12.0),
+        ("forty", 45.0),
+        ("ninety", 90.0),
+        ("ninty", 90.0),
+    ];
+    named.iter().find(|(name, _)| *name == word).map(|(_, value)| *value).or_else(|| word.parse().ok())
+}

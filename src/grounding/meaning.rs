@@ -1,0 +1,62 @@
+//! What one chunk means.
+
+use crate::record::{Amount, Direction, Frame, Pair};
+
+/// The meaning of one chunk's own words, without those of the chunks inside it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Meaning {
+    /// Room named.
+    pub room: Option<String>,
+    /// Side that picks the room.
+    pub side: Option<Direction>,
+    /// Object named.
+    pub object: Option<String>,
+    /// Target furniture.
+    pub target: Option<String>,
+    /// Colour, size, shape.
+    pub attributes: Vec<String>,
+    /// "The second".
+    pub ordinal: Option<u32>,
+    /// References and directions, usually one.
+    pub pairs: Vec<Pair>,
+    /// How sure, 0 to 1.
+    pub score: f64,
+    /// In words, why.
+    pub because: String,
+}
+
+/// A pair in its likeliest frame.
+pub fn pair(reference: &str, direction: Direction) -> Pair {
+    Pair {
+        reference: reference.to_string(),
+        direction,
+        frame: likeliest_frame(reference),
+        and: None,
+        amount: None,
+        ordinal: None,
+    }
+}
+
+/// The hearer and motions are read from the robot; chairs and screens by their own front; all else as on entering.
+fn likeliest_frame(reference: &str) -> Frame {
+    match reference {
+        "move" | "robot" => Frame::Robot,
+        "chair" | "armchair" | "stool" | "tv" | "computer" | "monitor" | "laptop" => Frame::Intrinsic,
+        _ => Frame::Viewer,
+    }
+}
+
+impl Meaning {
+    /// A meaning that is one pair.
+    pub fn of_pair(reference: &str, direction: Direction, because: impl Into<String>) -> Self {
+        Self { pairs: vec![pair(reference, direction)], score: 0.9, because: because.into(), ..Self::default() }
+    }
+
+    /// The same with an amount.
+    pub fn with_amount(mut self, amount: Option<Amount>) -> Self {
+        if let Some(pair) = self.pairs.first_mut() {
+            pair.amount = amount;
+        }
+        self
+    }
+}

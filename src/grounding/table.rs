@@ -1,0 +1,34 @@
+//! A grounding for people.
+
+use crate::record::{Grounding, Node};
+
+/// The reading in lines: room, object, nodes, then why.
+pub fn table(text: &str, grounding: &Grounding) -> String {
+    let mut lines = vec![text.to_string()];
+    let room = grounding.room.as_ref().map_or("not said".to_string(), |room| {
+        let side = room.side.map(|side| format!("on the {}", side.name()));
+        [room.name.clone(), side].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    });
+    lines.push(format!("  room    {room}"));
+    lines.push(format!("  object  {}", grounding.object.as_ref().map_or("not named", |object| object.name.as_str())));
+    lines.extend(grounding.nodes.iter().enumerate().map(|(i, node)| format!("  node {}  {}", i + 1, describe(node))));
+    lines.push(format!("  score   {:.2}", grounding.score.0));
+    lines.extend(grounding.why.iter().map(|why| {
+        format!("    {:5} {:40} {}", why.tag.name(), text.get(why.start..why.end).unwrap_or(""), why.because)
+    }));
+    let remarks = grounding.warnings.iter().chain(&grounding.problems).chain(&grounding.question);
+    lines.extend(remarks.map(|remark| format!("  !  {remark}")));
+    if !grounding.unused.is_empty() {
+        let words: Vec<&str> = grounding.unused.iter().map(|span| span.text.as_str()).collect();
+        lines.push(format!("  unused  {}", words.join(", ")));
+    }
+    lines.join("\n")
+}
+
+fn describe(node: &Node) -> String {
+    let attributes: String = node.attributes.iter().map(|a| format!("{a} ")).collect();
+    let target = node.target.as_deref().map_or("–".to_string(), |target| format!("{attributes}{target}"));
+    let pairs: Vec<String> =
+        node.pairs.iter().map(|pair| format!("{} ({})", pair.phrase(), pair.frame.name())).collect();
+    format!("{target}: {}", if pairs.is_empty() { "anywhere".to_string() } else { pairs.join(", ") })
+}

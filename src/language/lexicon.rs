@@ -1,0 +1,322 @@
+//! The words the robot knows: data in `corpus/lexicon/`, one line a word.
+
+use std::collections::HashMap;
+use std::sync::OnceLock;
+
+/// What kind of thing a noun names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Class {
+    /// Table, desk, nightstand, counter: where people put small things.
+    TableLike,
+    /// Chair, stool, bench.
+    Seat,
+    /// Couch, sofa.
+    Couch,
+    /// Bed.
+    Bed,
+    /// Dresser, wardrobe, shelf, cabinet.
+    Storage,
+    /// Lamp.
+    Lamp,
+    /// Fridge, sink, fan.
+    Appliance,
+    /// Things with a screen that stand like furniture.
+    Screen,
+    /// Plants.
+    Plant,
+    /// Window, fireplace, stairs.
+    Structure,
+    /// The wall.
+    Wall,
+    /// Door, entrance.
+    Opening,
+    /// Rooms.
+    Room,
+    /// Corner.
+    Part,
+    /// Portable objects.
+    Object,
+}
+
+impl Class {
+    fn from_name(name: &str) -> Option<Self> {
+        Some(match name {
+            "table_like" => Self::TableLike,
+            "seat" => Self::Seat,
+            "couch" => Self::Couch,
+            "bed" => Self::Bed,
+            "storage" => Self::Storage,
+            "lamp" => Self::Lamp,
+            "appliance" => Self::Appliance,
+            "screen" => Self::Screen,
+            "plant" => Self::Plant,
+            "structure" => Self::Structure,
+            "wall" => Self::Wall,
+            "opening" => Self::Opening,
+            "room" => Self::Room,
+            "part" => Self::Part,
+            "object" => Self::Object,
+            _ => return None,
+        })
+    }
+
+    /// Whether it stands in a room and can be a landmark or hold things.
+    pub fn is_furniture(self) -> bool {
+        !matches!(self, Self::Wall | Self::Opening | Self::Room | Self::Part | Self::Object)
+    }
+}
+
+/// How the grammar uses a word that is no noun.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
+pub enum Role {
+    Filler,
+    Addressee,
+    Conjunction,
+    Determiner,
+    Pronoun,
+    Hearer,
+    Copula,
+    Modal,
+    Has,
+    Motion,
+    Turn,
+    Look,
+    Reach,
+    Find,
+    Bring,
+    Ahead,
+    Side,
+    SideWord,
+    Part,
+    Extent,
+    Again,
+    Until,
+    Preposition,
+    Adjective,
+    Number,
+    Ordinal,
+    Step,
+    FootUnit,
+    MetreUnit,
+    DegreeUnit,
+    Correction,
+    Doubt,
+    Negation,
+    There,
+    Lying,
+    Adverb,
+}
+
+impl Role {
+    fn from_name(name: &str) -> Option<Self> {
+        Some(match name {
+            "filler" => Self::Filler,
+            "addressee" => Self::Addressee,
+            "conjunction" => Self::Conjunction,
+            "determiner" => Self::Determiner,
+            "pronoun" => Self::Pronoun,
+            "hearer" => Self::Hearer,
+            "copula" => Self::Copula,
+            "modal" => Self::Modal,
+            "has" => Self::Has,
+            "motion" => Self::Motion,
+            "turn" => Self::Turn,
+            "look" => Self::Look,
+            "reach" => Self::Reach,
+            "find" => Self::Find,
+            "bring" => Self::Bring,
+            "ahead" => Self::Ahead,
+            "side" => Self::Side,
+            "sideword" => Self::SideWord,
+            "part" => Self::Part,
+            "extent" => Self::Extent,
+            "again" => Self::Again,
+            "until" => Self::Until,
+            "preposition" => Self::Preposition,
+            "adjective" => Self::Adjective,
+            "number" => Self::Number,
+            "ordinal" => Self::Ordinal,
+            "step" => Self::Step,
+            "foot-unit" => Self::FootUnit,
+            "metre-unit" => Self::MetreUnit,
+            "degree-unit" => Self::DegreeUnit,
+            "correction" => Self::Correction,
+            "doubt" => Self::Doubt,
+            "negation" => Self::Negation,
+            "there" => Self::There,
+            "lying" => Self::Lying,
+            "adverb" => Self::Adverb,
+            _ => return None,
+        })
+    }
+}
+
+/// A noun: its canonical name in lower_snake, and its class.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Noun {
+    /// Canonical name.
+    pub name: String,
+    /// What kind of thing it names.
+    pub class: Class,
+}
+
+/// A line of a lexicon file that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{file}:{line}: {message}")]
+pub struct LexiconError {
+    /// The file.
+    pub file: String,
+    /// 1-based.
+    pub line: usize,
+    /// What is wrong.
+    pub message: String,
+}
+
+/// Nouns and other words.
+#[derive(Clone, Debug, Default)]
+pub struct Lexicon {
+    nouns: Vec<Noun>,
+    /// From the words of a name, joined by spaces, to its noun.
+    names: HashMap<String, usize>,
+    words: HashMap<String, (String, Role)>,
+    longest: usize,
+}
+
+impl Lexicon {
+    /// The lexicon this program ships.
+    pub fn embedded() -> &'static Self {
+        static EMBEDDED: OnceLock<Lexicon> = OnceLock::new();
+        EMBEDDED.get_or_init(|| {
+            let mut lexicon = Self::default();
+            // Both files are embedded and tested; a broken line would only be left out.
+            let _ = lexicon.add_nouns(include_str!("../../corpus/lexicon/nouns.tsv"), "nouns.tsv");
+            let _ = lexicon.add_words(include_str!("../../corpus/lexicon/words.tsv"), "words.tsv");
+            lexicon
+        })
+    }
+
+    /// Adds nouns: lines of `name TAB class [TAB other, names]`; `#` begins a comment.
+    pub fn add_nouns(&mut self, text: &str, file: &str) -> Result<(), LexiconError> {
+        for (line, fields) in lines(text) {
+            let wrong = |message: String| LexiconError { file: file.to_string(), line, message };
+            let (Some(name), Some(class)) = (fields.first(), fields.get(1)) else {
+                return Err(wrong("a noun needs a name, a tab and a class".to_string()));
+            };
+            let class = Class::from_name(class).ok_or_else(|| wrong(format!("unknown class `{class}`")))?;
+            // "wall" is a structure with rules of its own.
+            let class = if *name == "wall" { Class::Wall } else { class };
+            let index = self.nouns.len();
+            self.nouns.push(Noun { name: (*name).to_string(), class });
+            let others = fields.get(2).map_or("", |others| *others).split(',');
+            for other in
+                others.map(str::trim).filter(|other| !other.is_empty()).chain([name.replace('_', " ").as_str()])
+            {
+                if self.names.insert(other.to_string(), index).is_some_and(|old| old != index) {
+                    return Err(wrong(format!("`{other}` already names another noun")));
+                }
+                self.longest = self.longest.max(other.split(' ').count());
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds other words: lines of `word TAB part of speech TAB role`.
+    pub fn add_words(&mut self, text: &str, file: &str) -> Result<(), LexiconError> {
+        for (line, fields) in lines(text) {
+            let wrong = |message: String| LexiconError { file: file.to_string(), line, message };
+            let [word, pos, role] = fields[..] else {
+                return Err(wrong("a word needs a part of speech and a role, separated by tabs".to_string()));
+            };
+            let role = Role::from_name(role).ok_or_else(|| wrong(format!("unknown role `{role}`")))?;
+            if self.words.insert(word.to_string(), (pos.to_string(), role)).is_some() {
+                return Err(wrong(format!("`{word}` stands twice")));
+            }
+        }
+        Ok(())
+    }
+
+    /// The class of a noun given in lower_snake or as words.
+    pub fn class_of(&self, noun: &str) -> Option<Class> {
+        self.noun(&noun.replace('_', " ")).map(|noun| noun.class).or_else(|| self.class_of_head(noun))
+    }
+
+    /// "drum_table" is a table: an unknown compound is what its last word is.
+    fn class_of_head(&self, noun: &str) -> Option<Class> {
+        let (_, head) = noun.rsplit_once('_')?;
+        self.noun(head).map(|noun| noun.class)
+    }
+
+    /// The canonical name of a noun given as words.
+    pub fn canonical(&self, words: &str) -> Option<&str> {
+        self.noun(words).map(|noun| noun.name.as_str())
+    }
+
+    /// The noun of that name, words separated by spaces.
+    pub fn noun(&self, words: &str) -> Option<&Noun> {
+        self.names.get(words).map(|&index| &self.nouns[index])
+    }
+
+    /// Part of speech and role of a word that is no noun.
+    pub fn word(&self, lower: &str) -> Option<(&str, Role)> {
+        self.words.get(lower).map(|(pos, role)| (pos.as_str(), *role))
+    }
+
+    /// Words in the longest name.
+    pub fn longest_name(&self) -> usize {
+        self.longest
+    }
+
+    /// All nouns.
+    pub fn nouns(&self) -> &[Noun] {
+        &self.nouns
+    }
+}
+
+/// Numbered lines without comments, split at tabs.
+fn lines(text: &str) -> impl Iterator<Item = (usize, Vec<&str>)> {
+    text.lines()
+        .enumerate()
+        .map(|(i, line)| (i + 1, line.trim_end()))
+        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
+        .map(|(number, line)| (number, line.split('\t').collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shipped_lexicon_is_consistent() {
+        let mut lexicon = Lexicon::default();
+        lexicon.add_nouns(include_str!("../../corpus/lexicon/nouns.tsv"), "nouns.tsv").expect("good nouns");
+        lexicon.add_words(include_str!("../../corpus/lexicon/words.tsv"), "words.tsv").expect("good words");
+        assert!(lexicon.nouns().len() > 200);
+    }
+
+    #[test]
+    fn names_of_several_words_lead_to_their_noun() {
+        let lexicon = Lexicon::embedded();
+        assert_eq!(lexicon.canonical("cell phone"), Some("cellphone"));
+        assert_eq!(lexicon.class_of("coffee_table"), Some(Class::TableLike));
+        assert_eq!(lexicon.class_of("drum_table"), Some(Class::TableLike));
+        assert_eq!(lexicon.class_of("xyzzy"), None);
+    }
+
+    #[test]
+    fn a_bad_line_is_named() {
+        let error = Lexicon::default().add_nouns("# mine\nthrone\troyal\n", "my.tsv").expect_err("unknown class");
+        assert_eq!(error.to_string(), "my.tsv:2: unknown class `royal`");
+    }
+
+    #[test]
+    fn every_furniture_and_object_of_the_worlds_is_known() {
+        let lexicon = Lexicon::embedded();
+        for category in crate::world::CATEGORIES {
+            assert!(lexicon.class_of(category.noun).is_some_and(Class::is_furniture), "{}", category.noun);
+        }
+        for object in crate::world::OBJECTS {
+            assert_eq!(lexicon.class_of(object.name), Some(Class::Object), "{}", object.name);
+        }
+    }
+}

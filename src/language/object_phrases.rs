@@ -1,0 +1,105 @@
+//! Clauses about the object: "the mug is", "you will find the mug", "bring me the book", "it 's".
+
+use super::cursor::Cursor;
+use super::lexicon::{Class, Role};
+use super::phrases::{Kind, Phrase};
+
+/// The verbs that go with a subject: "will be", "should be sitting", "is".
+const PREDICATE: [Role; 5] = [Role::Modal, Role::Copula, Role::Lying, Role::Adverb, Role::Has];
+/// What may stand between a clause's subject and its verb of finding.
+const SUBJECT: [Role; 4] = [Role::Pronoun, Role::Modal, Role::Has, Role::Adverb];
+
+impl Cursor<'_> {
+    pub(super) fn object_clause(&self, at: usize) -> Option<Phrase> {
+        self.finding(at)
+            .or_else(|| self.there_is(at))
+            .or_else(|| self.thing_is(at))
+            .or_else(|| self.it_is(at))
+            .or_else(|| self.is_thing(at))
+    }
+
+    /// "you will find the mug", "find the mug", "can you bring me the book", "i left my keys", "pick up the letter".
+    fn finding(&self, at: usize) -> Option<Phrase> {
+        let verb = self.skip(at, &SUBJECT);
+        let getting = self.is(verb, &["get"]) && !self.is(verb + 1, &["in", "into", "to", "close"]);
+        let looking = self.role(verb) == Some(Role::Look) && self.is(verb + 1, &["for"]);
+        if !matches!(self.role(verb), Some(Role::Find | Role::Bring)) && !getting && !looking {
+            return None;
+        }
+        let mut object = self.skip(verb + 1, &[Role::Pronoun, Role::Adverb]);
+        object += usize::from(self.is(object, &["up", "for", "out"]));
+        let pronoun = object > verb + 1 && self.is(object - 1, &["it", "them"]);
+        match self.noun_phrase(object, true).filter(|_| !pronoun) {
+            Some(noun) => match self.class(noun.head) {
+                Some(Class::Object) | None => Some(Phrase::new(Kind::Object, at, noun.past, "find the object")),
+                Some(class) if class.is_furniture() => Some(Phrase::new(Kind::Target, at, noun.past, "find furniture")),
+                _ => None,
+            },
+            None => (pronoun || verb > at).then(|| Phrase::new(Kind::Object, at, object, "find it")),
+        }
+    }
+
+    /// "there is the mug", "there will be a table".
+    fn there_is(&self, at: usize) -> Option<Phrase> {
+        let there = self.is(at, &["there", "here"]);
+        let verb = self.skip(at + 1, &PREDICATE);
+        if !there || verb == at + 1 {
+            return None;
+        }
+        let noun = self.noun_phrase(verb, true)?;
+        match self.class(noun.head) {
+            Some(Class::Object) | None => Some(Phrase::new(Kind::Object, at, noun.past, "there is the object")),
+            Some(class) if class.is_furniture() => Some(Phrase::new(Kind::Target, at, noun.past, "there is furniture")),
+            _ => None,
+        }
+    }
+
+    /// "the mug is", "the glasses case will be", "keys are sitting".
+    fn thing_is(&self, at: usize) -> Option<Phrase> {
+        let noun = self.noun_phrase(at, true)?;
+        let past = self.skip(noun.past, &PREDICATE);
+        let told = self.noun_has_article(noun.first, noun.head);
+        match self.class(noun.head) {
+            Some(Class::Object) if past > noun.past => Some(Phrase::new(Kind::Object, at, past, "the object is")),
+            // "keys on the desk", said without a verb.
+            Some(Class::Object) if self.relation(past).is_some() => {
+                Some(Phrase::new(Kind::Object, at, past, "the object"))
+            }
+            Some(Class::Object) => Some(Phrase::new(Kind::Object, at, past, "the object alone")),
+            None if told && past > noun.past && self.role(noun.past) != Some(Role::Has) => {
+                Some(Phrase::new(Kind::Object, at, past, "an unknown thing is"))
+            }
+            _ => None,
+        }
+    }
+
+    fn noun_has_article(&self, first: usize, head: usize) -> bool {
+        first < head && matches!(self.role(first), Some(Role::Determiner | Role::Hearer))
+    }
+
+    /// "it 's", "they 're", "its on the table".
+    fn it_is(&self, at: usize) -> Option<Phrase> {
+        if !self.is(at, &["it", "they", "its", "that"]) {
+            return None;
+        }
+        let past = self.skip(at + 1, &PREDICATE);
+        let short = self.is(at, &["its"]) && self.role(at + 1) == Some(Role::Preposition);
+        let place_follows = matches!(self.role(past), Some(Role::Preposition | Role::There | Role::Side | Role::Ahead));
+        let furniture_follows =
+            self.noun_phrase(past, false).is_some_and(|n| self.class(n.head).is_some_and(Class::is_furniture));
+        (short || past > at + 1 && (place_follows || furniture_follows) && !self.is(at, &["that"]))
+            .then(|| Phrase::new(Kind::Object, at, past, "it is"))
+    }
+
+    /// "on the desk is the pad": the subject after its verb.
+    fn is_thing(&self, at: usize) -> Option<Phrase> {
+        let noun_at = self.skip(at, &PREDICATE);
+        if noun_at == at {
+            return None;
+        }
+        let noun = self.noun_phrase(noun_at, true)?;
+        let known = self.class(noun.head) == Some(Class::Object);
+        let told = self.class(noun.head).is_none() && self.noun_has_article(noun.first, noun.head);
+        (known || told).then(|| Phrase::new(Kind::Object, at, noun.past, "is the object"))
+    }
+}

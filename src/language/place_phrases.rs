@@ -1,0 +1,250 @@
+//! Places: rooms, parts of a room, sides of the hearer, furniture.
+
+use super::cursor::{Cursor, NounPhrase, Relation};
+use super::lexicon::{Class, Role};
+use super::phrases::{Kind, Phrase};
+
+/// Prepositions that lead into a room or through a door.
+const INTO: [&str; 10] = ["in", "into", "to", "through", "inside", "toward", "towards", "at", "for", "of"];
+/// Prepositions before a part of the room or a wall.
+const BEFORE_PART: [&str; 15] = [
+    "in", "at", "on", "to", "into", "near", "towards", "toward", "against", "along", "by", "across", "from", "through",
+    "over",
+];
+/// Rooms that are passed through, not entered.
+const PASSAGES: [&str; 2] = ["hallway", "intersection"];
+
+impl Cursor<'_> {
+    /// A room or door with its side, after a verb at `first` or alone.
+    pub(super) fn room(&self, first: usize, at: usize) -> Option<Phrase> {
+        let mut noun_at = at;
+        while self.is(noun_at, &INTO) || self.is(noun_at, &["up", "down", "back"]) && self.is(noun_at + 1, &INTO) {
+            noun_at += 1;
+        }
+        if noun_at == at && first != at {
+            return None;
+        }
+        self.room_from(first, self.noun_phrase(noun_at, false)?)
+    }
+
+    pub(super) fn room_from(&self, first: usize, noun: NounPhrase) -> Option<Phrase> {
+        let is_room = match self.class(noun.head)? {
+            Class::Room => !self.names_passage(noun.head),
+            // A door that is entered stands for its room; "by the door" is a place.
+            Class::Opening => first == noun.first || self.leads_through(first, noun.first),
+            _ => return None,
+        };
+        if !is_room {
+            return None;
+        }
+        if let Some(side) = (noun.first..noun.head).find(|&i| self.role(i) == Some(Role::Side)) {
+            return Some(Phrase::new(Kind::Room, first, noun.past, "room of a side").with_inner(side, side + 1));
+        }
+        let link = self.skip_clause_link(noun.past);
+        match self.side_past(link, false) {
+            Some(past) => Some(Phrase::new(Kind::Room, first, past, "room on a side").with_inner(link, past)),
+            None => Some(Phrase::new(Kind::Room, first, noun.past, "room")),
+        }
+    }
+
+    fn names_passage(&self, head: usize) -> bool {
+        PASSAGES.iter().any(|name| self.lower(head).contains(name)) || self.is(head, &["hall", "corridor"])
+    }
+
+    fn leads_through(&self, first: usize, noun: usize) -> bool {
+        (first..noun).any(|i| self.is(i, &["through", "enter", "enters", "into", "in", "entering"]))
+    }
+
+    /// "that 's on your left", "which is on the left": the link is skipped.
+    fn skip_clause_link(&self, at: usize) -> usize {
+        let link = if self.is(at, &["that", "which"]) { at + 1 } else { at };
+        let link = if self.role(link) == Some(Role::Copula) && link > at { link + 1 } else { link };
+        if link > at + 1 { link } else { at }
+    }
+
+    /// A place that is no furniture: relative to the hearer, a part of the room, a wall, the door.
+    pub(super) fn place(&self, at: usize) -> Option<Phrase> {
+        let start = self.skip(at, &[Role::Adverb]);
+        if let Some(past) = self.part_past(at).or_else(|| self.part_past(start)) {
+            return Some(Phrase::new(Kind::Part, at, past, "part of the room"));
+        }
+        let past = self.side_past(start, false).or_else(|| self.ahead_past(start))?;
+        Some(Phrase::new(Kind::Side, at, past, "side of the hearer"))
+    }
+
+    /// One past "on the right", "to your left hand side", "ahead to your left"; not "left of the bed".
+    pub(super) fn side_past(&self, at: usize, after_motion: bool) -> Option<usize> {
+        let mut i = self.skip(at, &[Role::Ahead, Role::Adverb]);
+        let preposition = self.is(i, &["on", "to", "at", "towards", "toward", "in", "off", "from"]);
+        if preposition {
+            i += 1 + usize::from(self.is(i, &["off"]) && self.is(i + 1, &["to"]));
+        } else if !after_motion {
+            return None;
+        }
+        i = self.skip(i, &[Role::Adverb]);
+        i = self.skip(i, &[Role::Determiner, Role::Hearer, Role::Adjective, Role::Adverb]);
+        i += usize::from(self.is_unknown(i) && self.is(i + 1, &["'s"])) * 2;
+        i += usize::from(self.is(i, &["'s"]));
+        if self.role(i) != Some(Role::Side) {
+            return None;
+        }
+        let past = self.skip(i + 1, &[Role::SideWord]);
+        let of_thing = self.is(past, &["of"]) && !self.is(past + 1, &["you", "him", "me", "it", "her"]);
+        let of_room =
+            of_thing && self.noun_phrase(past + 1, false).is_some_and(|n| self.class(n.head) == Some(Class::Room));
+        if of_thing && !of_room && self.noun_phrase(past + 1, false).is_some() || self.class(past).is_some() {
+            return None;
+        }
+        let past = if self.is(past, &["of"]) && self.role(past + 1) == Some(Role::Pronoun) { past + 2 } else { past };
+        Some(past)
+    }
+
+    /// One past "straight ahead", "in front of you", "behind you".
+    fn ahead_past(&self, at: usize) -> Option<usize> {
+        let hearer = |i: usize| self.is(i, &["you", "him", "me", "it", "her", "robot"]);
+        let ahead = self.skip(at, &[Role::Ahead]);
+        if ahead > at && self.lower(ahead - 1) == "ahead" {
+            return Some(if self.is(ahead, &["of"]) && hearer(ahead + 1) { ahead + 2 } else { ahead });
+        }
+        if self.is(at, &["in"]) && self.is(at + 1, &["front"]) {
+            if self.is(at + 2, &["of"]) && hearer(at + 3) {
+                return Some(at + 4);
+            }
+            return (!self.is(at + 2, &["of"])).then_some(at + 2);
+        }
+        (self.is(at, &["behind"]) && hearer(at + 1)).then_some(at + 2)
+    }
+
+    /// One past a part of the room, a wall or the door.
+    pub(super) fn part_past(&self, at: usize) -> Option<usize> {
+        self.halfway_past(at)
+            .or_else(|| self.across_past(at))
+            .or_else(|| self.door_past(at))
+            .or_else(|| self.named_part_past(at))
+    }
+
+    /// "about halfway in", "halfway into the room".
+    fn halfway_past(&self, at: usize) -> Option<usize> {
+        let half = self.skip(at, &[Role::Adverb]);
+        let past = match self.lower(half) {
+            "halfway" => half + 1,
+            "half" if self.is(half + 1, &["way"]) => half + 2,
+            _ => return None,
+        };
+        let into =
+            past + usize::from(self.is(past, &["in", "into", "to", "through", "down", "across", "inside", "up"]));
+        let room = self.noun_phrase(into, false).filter(|n| into > past && self.class(n.head) == Some(Class::Room));
+        Some(room.map_or(into, |noun| noun.past))
+    }
+
+    fn across_past(&self, at: usize) -> Option<usize> {
+        if !self.is(at, &["across", "cross"]) {
+            return None;
+        }
+        self.noun_phrase(at + 1, false).filter(|n| self.class(n.head) == Some(Class::Room)).map(|n| n.past)
+    }
+
+    /// "next to the door", "behind the door", "just inside".
+    fn door_past(&self, at: usize) -> Option<usize> {
+        let (_, noun) =
+            self.relation(at).or_else(|| self.is(at, &["after", "from"]).then_some((Relation::On, at + 1)))?;
+        let noun = self.noun_phrase(noun, false)?;
+        (self.class(noun.head) == Some(Class::Opening)).then_some(noun.past)
+    }
+
+    /// "at the back of the room", "on the far right end", "against the left wall", "in the corner".
+    fn named_part_past(&self, at: usize) -> Option<usize> {
+        if !self.is(at, &BEFORE_PART) {
+            return None;
+        }
+        let mut i = at + 1;
+        i += usize::from(self.is(at, &["over"]) && self.is(i, &BEFORE_PART));
+        i = self.skip(i, &[Role::Determiner, Role::Hearer, Role::Adverb]);
+        let modifiers = i;
+        while matches!(self.role(i), Some(Role::Part | Role::Side | Role::Adjective)) || self.is(i, &["opposite"]) {
+            i += 1;
+        }
+        i += usize::from(i > modifiers && self.role(i) == Some(Role::SideWord));
+        let solid = matches!(self.class(i), Some(Class::Wall | Class::Part));
+        let far = (modifiers..i).any(|k| self.role(k) == Some(Role::Part) || self.is(k, &["other", "opposite"]));
+        if solid {
+            i += 1;
+        } else if !far || self.class(i).is_some() {
+            return self.side_of_room_past(at);
+        }
+        // "at the end of the bed" is about the bed.
+        if self.is(i, &["of", "in"])
+            && let Some(noun) = self.noun_phrase(i + 1, false)
+        {
+            return match self.class(noun.head) {
+                Some(Class::Room | Class::Wall | Class::Part) => Some(noun.past),
+                Some(class) if class.is_furniture() && self.is(i, &["of"]) => None,
+                _ => Some(i),
+            };
+        }
+        Some(i)
+    }
+
+    /// "on the left side of the room".
+    fn side_of_room_past(&self, at: usize) -> Option<usize> {
+        let past = self.side_past(at, false)?;
+        let noun = self.is(past, &["of"]).then(|| self.noun_phrase(past + 1, false)).flatten()?;
+        (self.class(noun.head) == Some(Class::Room)).then_some(noun.past)
+    }
+
+    /// Furniture or an object after a relation, or furniture named outright.
+    pub(super) fn furniture(&self, first: usize, at: usize) -> Option<Phrase> {
+        let start = self.skip(at, &[Role::Adverb]);
+        if let Some(phrase) = self.side_then_furniture(first, start) {
+            return Some(phrase);
+        }
+        if let Some((relation, noun)) = self.relation(start) {
+            let noun = self.noun_phrase(noun, false)?;
+            return self.related(first, relation, noun);
+        }
+        let noun = self.noun_phrase(start, false)?;
+        let class = self.class(noun.head)?;
+        // A bare mention only counts with something before it: "table" alone may be half of anything.
+        let bare = class.is_furniture() && (noun.past > noun.first + 1 || first == 0);
+        bare.then(|| Phrase::new(Kind::Target, first, noun.past, "furniture named"))
+    }
+
+    fn related(&self, first: usize, relation: Relation, noun: NounPhrase) -> Option<Phrase> {
+        let class = self.class(noun.head)?;
+        let past = self.second_noun_past(noun.past, class);
+        match (relation, class) {
+            (Relation::Landmark(_), Class::Object) => Some(Phrase::new(Kind::ObjectMark, first, past, "by an object")),
+            (_, Class::Object) => None,
+            (Relation::Landmark(_), class) if class.is_furniture() => {
+                Some(Phrase::new(Kind::Landmark, first, past, "by furniture"))
+            }
+            (_, class) if class.is_furniture() => Some(Phrase::new(Kind::Target, first, noun.past, "on furniture")),
+            _ => None,
+        }
+    }
+
+    /// "to the right bed": what was meant is "to the right of the bed".
+    fn side_then_furniture(&self, first: usize, at: usize) -> Option<Phrase> {
+        let side = self.skip(at + 1, &[Role::Determiner]);
+        let fits = self.is(at, &["to", "on"])
+            && side > at + 1
+            && self.role(side) == Some(Role::Side)
+            && self.class(side + 1).is_some_and(|class| class.is_furniture() && class != Class::TableLike);
+        fits.then(|| Phrase::new(Kind::Landmark, first, side + 2, "side of furniture, \"of\" missing"))
+    }
+
+    /// "near a plant and a lamp": the second belongs to the same relation.
+    fn second_noun_past(&self, past: usize, class: Class) -> usize {
+        if !self.is(past, &["and"]) {
+            return past;
+        }
+        let second = self.noun_phrase(past + 1, false).filter(|noun| noun.first < noun.head);
+        let alike =
+            |other: Class| other == class || other.is_furniture() == class.is_furniture() && other != Class::TableLike;
+        let clause = |noun: &NounPhrase| matches!(self.role(noun.past), Some(Role::Copula | Role::Modal));
+        match second {
+            Some(noun) if self.class(noun.head).is_some_and(alike) && !clause(&noun) => noun.past,
+            _ => past,
+        }
+    }
+}

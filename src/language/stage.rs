@@ -1,0 +1,35 @@
+//! `chunk` as a stage of the pipeline.
+
+use super::{chunk_text, draw_tree};
+use crate::record::{Chunk, Note, Record, Stage, StageError};
+
+/// Adds `tokens` and `chunks` to records.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Chunker {
+    /// Names the rule behind each chunk.
+    pub explain: bool,
+}
+
+impl Stage for Chunker {
+    fn run(&self, record: &mut Record) -> Result<Note, StageError> {
+        let text: String = record.require("text", "a record needs the description under this key")?;
+        let (tokens, mut chunks) = chunk_text(&text);
+        if !self.explain {
+            chunks.iter_mut().for_each(forget_rules);
+        }
+        record.set("tokens", &tokens);
+        record.set("chunks", &chunks);
+        Ok(Note::Done)
+    }
+
+    fn text(&self, record: &Record) -> Result<String, StageError> {
+        let text: String = record.require("text", "a record needs the description under this key")?;
+        let chunks: Vec<Chunk> = record.require("chunks", "it is what `chunk` adds")?;
+        Ok(draw_tree(&text, &chunks))
+    }
+}
+
+fn forget_rules(chunk: &mut Chunk) {
+    chunk.rule = None;
+    chunk.chunks.iter_mut().for_each(forget_rules);
+}

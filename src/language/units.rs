@@ -1,0 +1,203 @@
+//! The longest entries of the lexicon in the text, fillers set aside.
+
+use super::lexicon::{Class, Lexicon, Role};
+use super::tokens::Word;
+use crate::record::Token;
+
+/// One entry of the lexicon as it stands in the text, or a word it does not have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unit<'t> {
+    /// First word, by number.
+    pub first: usize,
+    /// One past the last word.
+    pub past: usize,
+    /// Its words in lower case, joined by spaces.
+    pub lower: String,
+    /// What it is.
+    pub kind: UnitKind<'t>,
+}
+
+/// What a unit is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum UnitKind<'t> {
+    /// A noun: canonical name and class.
+    Noun(&'t str, Class),
+    /// Another known word.
+    Word(Role),
+    /// Punctuation that ends a clause.
+    Stop,
+    /// A word the lexicon does not have.
+    Unknown,
+}
+
+impl Unit<'_> {
+    /// The role, of a known word that is no noun.
+    pub fn role(&self) -> Option<Role> {
+        match self.kind {
+            UnitKind::Word(role) => Some(role),
+            _ => None,
+        }
+    }
+
+    /// The class, of a noun.
+    pub fn class(&self) -> Option<Class> {
+        match self.kind {
+            UnitKind::Noun(_, class) => Some(class),
+            _ => None,
+        }
+    }
+}
+
+/// The units of a text without fillers, addressees and light punctuation; linear in its length.
+pub fn units<'l>(words: &[Word], lexicon: &'l Lexicon) -> Vec<Unit<'l>> {
+    let mut units: Vec<Unit> = Vec::with_capacity(words.len());
+    let mut at = 0;
+    while at < words.len() {
+        let unit = longest(words, at, lexicon);
+        at = unit.past;
+        if !is_set_aside(&unit, units.last()) {
+            units.push(unit);
+        }
+    }
+    settle_ambiguous(&mut units);
+    units
+}
+
+fn longest<'l>(words: &[Word], at: usize, lexicon: &'l Lexicon) -> Unit<'l> {
+    let most = lexicon.longest_name().min(words.len() - at);
+    for count in (2..=most).rev() {
+        let joined = words[at..at + count].iter().map(|word| word.lower.as_str()).collect::<Vec<_>>().join(" ");
+        if let Some(noun) = lexicon.noun(&joined) {
+            return Unit { first: at, past: at + count, lower: joined, kind: UnitKind::Noun(&noun.name, noun.class) };
+        }
+    }
+    let lower = words[at].lower.clone();
+    let kind = if let Some((_, role)) = lexicon.word(&lower) {
+        UnitKind::Word(role)
+    } else if let Some(noun) = lexicon.noun(&lower) {
+        UnitKind::Noun(&noun.name, noun.class)
+    } else if lower.chars().all(|c| c.is_ascii_digit()) {
+        UnitKind::Word(Role::Number)
+    } else if matches!(lower.as_str(), "." | "!" | "?" | ";") {
+        UnitKind::Stop
+    } else {
+        UnitKind::Unknown
+    };
+    Unit { first: at, past: at + 1, lower, kind }
+}
+
+/// Fillers say nothing; an addressee does only in "brian 's left", where the clitic goes with it.
+fn is_set_aside(unit: &Unit, before: Option<&Unit>) -> bool {
+    let light = unit.kind == UnitKind::Unknown && !unit.lower.chars().any(char::is_alphanumeric);
+    let addressee_clitic = unit.lower == "'s" && before.is_none();
+    light || addressee_clitic || matches!(unit.role(), Some(Role::Filler | Role::Addressee))
+}
+
+/// Words after which "right" only strengthens: "right on the table", "right behind".
+const AFTER_EMPHASIS: [&str; 22] = [
+    "on", "in", "at", "behind", "next", "by", "near", "up", "when", "there", "beside", "inside", "ahead", "against",
+    "past", "where", "before", "after", "as", "here", "now", "beyond",
+];
+
+/// "right on the table" is emphasis; "i left my keys" is a verb.
+fn settle_ambiguous(units: &mut [Unit]) {
+    for i in 0..units.len() {
+        let before = i.checked_sub(1).map(|b| (units[b].role(), units[b].lower.clone()));
+        let role_before = before.as_ref().and_then(|(role, _)| *role);
+        let next = units.get(i + 1).map(|unit| unit.lower.clone()).unwrap_or_default();
+        let leads = matches!(
+            role_before,
+            Some(
+                Role::Determiner
+                    | Role::Hearer
+                    | Role::Turn
+                    | Role::Motion
+                    | Role::Look
+                    | Role::Preposition
+                    | Role::Adjective
+            )
+        );
+        if units[i].lower == "right" && !leads && AFTER_EMPHASIS.contains(&next.as_str()) {
+            units[i].kind = UnitKind::Word(Role::Adverb);
+        }
+        let after_subject =
+            matches!(before.as_ref().map(|(_, word)| word.as_str()), Some("i" | "we" | "he" | "she" | "they"));
+        if units[i].lower == "left" && after_subject {
+            units[i].kind = UnitKind::Word(Role::Bring);
+        }
+    }
+}
+
+/// Part-of-speech tags for all words: from the lexicon, else by the word's look.
+pub fn tag(words: &[Word], units: &[Unit], lexicon: &Lexicon) -> Vec<Token> {
+    let mut tags: Vec<&str> = words.iter().map(|word| guess(word, lexicon)).collect();
+    for unit in units {
+        if let UnitKind::Noun(_, class) = unit.kind {
+            tags[unit.first..unit.past].fill(noun_tag(class));
+        }
+    }
+    let token = |(word, pos): (&Word, &str)| Token {
+        text: word.text.to_string(),
+        pos: pos.to_string(),
+        start: word.start,
+        end: word.end,
+    };
+    words.iter().zip(tags).map(token).collect()
+}
+
+fn noun_tag(class: Class) -> &'static str {
+    match class {
+        Class::Room => "RM",
+        Class::Wall | Class::Opening | Class::Structure | Class::Part => "STR",
+        Class::Object => "NN",
+        _ => "FUR",
+    }
+}
+
+fn guess<'l>(word: &Word, lexicon: &'l Lexicon) -> &'l str {
+    if let Some((pos, _)) = lexicon.word(&word.lower) {
+        return pos;
+    }
+    let lower = word.lower.as_str();
+    match lower {
+        _ if !lower.chars().any(char::is_alphanumeric) => ".",
+        _ if lower.chars().all(|c| c.is_ascii_digit()) => "CD",
+        _ if lower.ends_with("ing") => "VBG",
+        _ if lower.ends_with("ed") => "VBN",
+        _ if lower.ends_with("ly") => "RB",
+        _ if lower.ends_with('s') && lower.len() > 3 => "NNS",
+        _ => "NN",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::tokens::tokenize;
+
+    fn lowers(text: &str) -> Vec<String> {
+        units(&tokenize(text), Lexicon::embedded()).into_iter().map(|unit| unit.lower).collect()
+    }
+
+    #[test]
+    fn the_longest_name_wins_and_fillers_are_set_aside() {
+        assert_eq!(lowers("um the coffee table , ok"), ["the", "coffee table"]);
+    }
+
+    #[test]
+    fn right_before_a_preposition_is_emphasis_unless_a_turn_leads_to_it() {
+        let role = |text: &str| {
+            let words = tokenize(text);
+            units(&words, Lexicon::embedded()).iter().find(|u| u.lower == "right").and_then(Unit::role)
+        };
+        assert_eq!(role("it is right on the table"), Some(Role::Adverb));
+        assert_eq!(role("turn right at the door"), Some(Role::Side));
+        assert_eq!(role("on the right by the bed"), Some(Role::Side));
+    }
+
+    #[test]
+    fn keys_that_were_left_are_no_direction() {
+        let words = tokenize("i left my keys");
+        assert_eq!(units(&words, Lexicon::embedded())[1].role(), Some(Role::Bring));
+    }
+}
