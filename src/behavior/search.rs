@@ -196,7 +196,10 @@ fn object_factor(candidate: &Furniture, beliefs: &Beliefs, noun: &str, phrase: &
 }
 
 fn best_between(candidate: &Furniture, references: &[&Furniture]) -> f64 {
-    let pairs = references.iter().enumerate().flat_map(|(i, first)| references[i + 1..].iter().map(move |second| (first, second)));
+    let pairs = references
+        .iter()
+        .enumerate()
+        .flat_map(|(i, first)| references[i + 1..].iter().map(move |second| (first, second)));
     let best = pairs.map(|(first, second)| relation::between(candidate, first, second)).fold(0.0, f64::max);
     // One of the two may be hidden; beside the other is then the best that can be seen.
     if references.len() == 1 { UNSEEN * beside(candidate, references[0]) } else { best }
