@@ -20,11 +20,17 @@ const BEST_VIEW_M: f64 = 1.25;
 /// Furniture longer than this may hide an object at its far end, so it is looked at from both sides.
 const LONG_M: f64 = 1.2;
 
+/// Nothing is seen through a wall: a line of sight keeps this clear of them, metres.
+const SIGHT_M: f64 = 0.06;
+
 /// Poses from which to look at `furniture`, the cheapest to reach first; for long furniture also one from across.
-pub fn viewpoints(grid: &ClearanceGrid, from: Vec2, furniture: &Furniture) -> Vec<Pose> {
+///
+/// `rooms` is the grid of the rooms alone, `grid` has all known furniture as well.
+pub fn viewpoints(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, furniture: &Furniture) -> Vec<Pose> {
     let centre = furniture.centre();
     let mut places: Vec<(f64, Vec2)> = (0..DIRECTIONS)
         .filter_map(|i| free_place(grid, furniture, TAU * i as f64 / DIRECTIONS as f64))
+        .filter(|&point| rooms.clearance_along(point, centre) >= SIGHT_M)
         .map(|point| ((point - from).norm() + 0.5 * (point - centre).norm(), point))
         .collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -40,11 +46,12 @@ pub fn viewpoints(grid: &ClearanceGrid, from: Vec2, furniture: &Furniture) -> Ve
 }
 
 /// A pose from which an object at `point` is well seen: at the best distance, on the side where the robot is.
-pub fn better_view(grid: &ClearanceGrid, from: Vec2, point: Vec2) -> Option<Pose> {
+pub fn better_view(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, point: Vec2) -> Option<Pose> {
     let toward = bearing(point, from);
     let turns = [0.0, 0.3, -0.3, 0.6, -0.6, 1.0, -1.0];
     let place = |turn: &f64| point + vec2((toward + turn).cos(), (toward + turn).sin()) * BEST_VIEW_M;
-    let free = |place: &Vec2| grid.clearance(grid.cell(*place)) >= SWING_M;
+    let free =
+        |place: &Vec2| grid.clearance(grid.cell(*place)) >= SWING_M && rooms.clearance_along(*place, point) >= SIGHT_M;
     turns.iter().map(place).find(free).map(|place| facing(place, point))
 }
 

@@ -35,13 +35,22 @@ pub struct Options {
     pub first_pair_only: bool,
     /// Do not fall back to table-like furniture the words do not fit.
     pub no_fallback: bool,
+    /// Do not go straight to an object recognised in passing: the words alone choose.
+    pub no_glance: bool,
     /// Seconds of robot time a trial may take.
     pub time_limit_s: f64,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { blind: false, one_frame: false, first_pair_only: false, no_fallback: false, time_limit_s: 900.0 }
+        Self {
+            blind: false,
+            one_frame: false,
+            first_pair_only: false,
+            no_fallback: false,
+            no_glance: false,
+            time_limit_s: 900.0,
+        }
     }
 }
 
@@ -145,10 +154,11 @@ impl<'a> Executive<'a> {
                         ordinal: *ordinal,
                         pairs: pairs.clone(),
                         one_frame: self.options.one_frame,
+                        nearest_first: false,
                     };
                 }
                 Action::Find { object } => task.object = object.as_deref(),
-                Action::Search { .. } => {}
+                Action::Search { .. } => task.wanted.nearest_first = true,
                 step if !self.options.blind => task.steps.push(step),
                 _ => {}
             }
@@ -327,7 +337,8 @@ impl<'a> Executive<'a> {
 
     /// The furniture on which the object was seen in passing, else the best ranked.
     fn choose(&mut self, task: &Task, ranked: &[&Ranked]) -> Option<usize> {
-        let seen = task.object.and_then(|name| self.pilot.beliefs.sighting(Some(name)));
+        let glances = !self.options.blind && !self.options.no_glance;
+        let seen = task.object.filter(|_| glances).and_then(|name| self.pilot.beliefs.sighting(Some(name)));
         if let Some(index) = seen.and_then(|sighting| self.pilot.beliefs.under(vec2(sighting.x, sighting.y)))
             && !self.pilot.beliefs.furniture[index].searched
         {
@@ -350,7 +361,7 @@ impl<'a> Executive<'a> {
     fn check(&mut self, index: usize, object: Option<&str>) -> Result<Option<String>, Halt> {
         let furniture = self.pilot.beliefs.furniture[index].clone();
         self.pilot.beliefs.furniture[index].searched = true;
-        let poses = viewpoints(self.pilot.grid(), self.pilot.pose().position(), &furniture);
+        let poses = viewpoints(self.pilot.grid(), self.pilot.rooms(), self.pilot.pose().position(), &furniture);
         let mut reached = false;
         for pose in poses {
             match self.pilot.go_to_pose(pose) {
@@ -386,7 +397,8 @@ impl<'a> Executive<'a> {
                 _ => {}
             }
             let here = self.pilot.pose().position();
-            let Some(better) = better_view(self.pilot.grid(), here, vec2(sighting.x, sighting.y)) else {
+            let Some(better) = better_view(self.pilot.grid(), self.pilot.rooms(), here, vec2(sighting.x, sighting.y))
+            else {
                 return Ok(None);
             };
             self.pilot.because("something is there that cannot be told from here; looking from a better place");

@@ -97,6 +97,11 @@ impl<'a> Pilot<'a> {
         &self.grid
     }
 
+    /// The grid of the rooms alone.
+    pub fn rooms(&self) -> &ClearanceGrid {
+        &self.rooms_only
+    }
+
     /// What the last look showed.
     pub fn view(&self) -> &View {
         &self.view

@@ -40,6 +40,9 @@ struct Arguments {
     /// Do not try furniture the words do not fit
     #[arg(long)]
     no_fallback: bool,
+    /// Do not go straight to an object recognised in passing: let the words alone choose
+    #[arg(long)]
+    no_glance: bool,
     /// Seconds of robot time a trial may take
     #[arg(long, value_name = "SECONDS", default_value_t = 900.0)]
     time_limit: f64,
@@ -79,6 +82,7 @@ impl Program for Arguments {
             one_frame: self.one_frame,
             first_pair_only: self.first_pair_only,
             no_fallback: self.no_fallback,
+            no_glance: self.no_glance,
             time_limit_s: self.time_limit,
         };
         let outputs = Outputs { plot: self.plot, picture: self.picture, record: self.record, force: self.common.force };

@@ -53,13 +53,14 @@ fn holders<'h>(home: &'h Home, object: Option<&str>) -> Vec<&'h Item> {
 
 /// Metres from the start to where a piece can be looked at, all furniture known.
 fn shortest_way(home: &Home, item: &Item) -> Option<f64> {
-    let mut grid = grid_of(&home.map);
+    let rooms = grid_of(&home.map);
+    let mut grid = rooms.clone();
     for other in &home.scene.furniture {
         grid.add_polygon(&other.footprint());
     }
     let start = home.map.start.position();
     let piece = as_seen(item)?;
-    let ways = viewpoints(&grid, start, &piece).into_iter().filter_map(|pose| {
+    let ways = viewpoints(&grid, &rooms, start, &piece).into_iter().filter_map(|pose| {
         let way = route(&grid, start, pose.position(), SWING_M)?;
         Some(length(start, &way))
     });
