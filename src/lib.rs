@@ -20,12 +20,14 @@
 //! | [`world`] | room map, furniture models, scene, what sensors see of it | |
 //! | [`force`] | histogram of forces, degrees of truth | `hof` |
 //! | [`geometry`] | pose, polygon, grid | |
+//! | [`files`] | files that appear whole or not at all | |
 //! | [`record`] | the record that grows from stage to stage | |
 
 pub mod behavior;
 pub mod cli;
 pub mod drawing;
 pub mod evaluation;
+pub mod files;
 pub mod force;
 pub mod geometry;
 pub mod grounding;

@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
+use spatial_fetch::evaluation::shipped_model;
 use spatial_fetch::grounding::{GroundStage, Grounder, Method};
 use spatial_fetch::record::Grounding;
 
@@ -46,7 +47,7 @@ impl Program for Arguments {
     fn run(self) -> Result<Exit, Failure> {
         let method = match self.method {
             MethodName::Composed => Method::Composed,
-            MethodName::Paper => Method::Composed,
+            MethodName::Paper => Method::Paper(Box::new(shipped_model().map_err(Failure::Failed)?)),
         };
         let stage = GroundStage(Grounder::new(method, self.brief));
         cli::run_filter(Self::NAME, &self.common, Intake::Records, &stage)

@@ -1,6 +1,6 @@
 //! What one chunk means.
 
-use crate::record::{Amount, Direction, Frame, Pair};
+use crate::record::{Amount, Direction, Frame, Pair, Tag};
 
 /// The meaning of one chunk's own words, without those of the chunks inside it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,6 +44,30 @@ fn likeliest_frame(reference: &str) -> Frame {
         "chair" | "armchair" | "stool" | "tv" | "computer" | "monitor" | "laptop" => Frame::Intrinsic,
         _ => Frame::Viewer,
     }
+}
+
+/// The meaning a gold label gives a chunk: a side or a room, a noun, or `reference/direction`, several with commas.
+pub fn meaning_of_label(tag: Tag, label: Option<&str>) -> Meaning {
+    let mut meaning = Meaning { score: 1.0, because: "labelled".to_string(), ..Meaning::default() };
+    let Some(label) = label else { return meaning };
+    match tag {
+        Tag::Ormtp | Tag::Ormrp => match direction_of(label) {
+            Some(side) => meaning.side = Some(side),
+            None => meaning.room = Some(label.to_string()),
+        },
+        Tag::Obtp => meaning.object = Some(label.to_string()),
+        Tag::Furtp => meaning.target = Some(label.to_string()),
+        _ => {
+            let pairs = label.split(',').filter_map(|pair| pair.split_once('/'));
+            meaning.pairs = pairs.filter_map(|(reference, name)| Some(pair(reference, direction_of(name)?))).collect();
+        }
+    }
+    meaning
+}
+
+fn direction_of(name: &str) -> Option<Direction> {
+    use Direction::{Back, Between, Central, Front, Left, Right, Side};
+    [Front, Back, Left, Right, Central, Side, Between].into_iter().find(|direction| direction.name() == name)
 }
 
 impl Meaning {

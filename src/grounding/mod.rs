@@ -16,6 +16,6 @@ mod words;
 
 pub use assemble::assemble;
 pub use grounder::{Grounder, Method};
-pub use meaning::Meaning;
+pub use meaning::{Meaning, meaning_of_label};
 pub use stage::GroundStage;
 pub use words::{ChunkWords, chunk_words};

@@ -3,7 +3,7 @@
 use super::outputs::{Outputs, Recorder, file_name};
 use super::{Home, Run, run};
 use crate::behavior::{Options, Silent};
-use crate::cli::write_file;
+use crate::files::{FileError, write_file};
 use crate::record::{Note, Plan, Record, Stage, StageError, Trial};
 
 /// Runs the plan of each record in a home.
@@ -36,7 +36,7 @@ impl Driver {
 
     /// Writes the plot and the picture.
     fn leave(&self, run: &mut Run, record: &Record, id: &str) -> Result<(), StageError> {
-        let failed = |failure: crate::cli::Failure| StageError::new(failure.to_string());
+        let failed = |error: FileError| StageError::new(error.to_string());
         if let Some(path) = &self.outputs.plot {
             let title: String = record.get("text")?.unwrap_or_default();
             let svg = Outputs::draw_plot(&self.home, run, &title);
