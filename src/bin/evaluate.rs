@@ -19,8 +19,6 @@ use spatial_fetch::trial::Home;
 struct Arguments {
     #[command(subcommand)]
     what: What,
-    #[command(flatten)]
-    common: Common,
 }
 
 #[derive(Subcommand)]
@@ -30,6 +28,8 @@ enum What {
         /// Gold descriptions [default: the shipped templates]
         #[arg(long, value_name = "FILE")]
         gold: Option<PathBuf>,
+        #[command(flatten)]
+        common: Common,
     },
     /// Run a corpus end to end, from text to trial, and score it
     Run {
@@ -45,33 +45,37 @@ enum What {
         /// Room and object only, nearest table first
         #[arg(long)]
         blind: bool,
+        #[command(flatten)]
+        common: Common,
     },
 }
 
 impl Program for Arguments {
     const NAME: &'static str = "evaluate";
     fn common(&self) -> &Common {
-        &self.common
+        match &self.what {
+            What::Score { common, .. } | What::Run { common, .. } => common,
+        }
     }
     fn schema() -> schemars::Schema {
         schemars::schema_for!(Scores)
     }
     fn reads_standard_input(&self) -> bool {
-        matches!(self.what, What::Score { .. }) && self.common.files.is_empty()
+        matches!(&self.what, What::Score { common, .. } if common.files.is_empty())
     }
     fn run(self) -> Result<Exit, Failure> {
-        let (gold, lines) = match self.what {
-            What::Score { gold } => (cli::load_gold(gold.as_deref())?, cli::read_lines(&self.common.files)?),
-            What::Run { gold, map, scene, blind } => {
+        let (gold, lines, common) = match self.what {
+            What::Score { gold, common } => (cli::load_gold(gold.as_deref())?, cli::read_lines(&common.files)?, common),
+            What::Run { gold, map, scene, blind, common } => {
                 let gold = cli::load_gold(gold.as_deref())?;
                 let home = Home::load(map.as_deref(), scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
                 let lines = run_corpus(&gold, &home, Options { blind, ..Options::default() });
-                (gold, lines)
+                (gold, lines, common)
             }
         };
         let scores = score(&gold, &lines).map_err(Failure::Failed)?;
         let title = format!("{} descriptions, {} records", gold.len(), lines.len());
-        cli::write_scores(&self.common, &Table { title, scores })
+        cli::write_scores(&common, &Table { title, scores })
     }
 }
 
