@@ -17,6 +17,8 @@ pub struct Gold {
     pub text: String,
     /// Labelled brackets over its words; empty when it has no tree.
     pub brackets: BTreeSet<Bracket>,
+    /// Whether it says what the description means.
+    pub has_grounding: bool,
     /// The side that picks the room.
     pub side: Option<Direction>,
     /// The room's name.
@@ -126,6 +128,7 @@ fn from_own(entry: OwnEntry) -> Result<Gold, String> {
         brackets: brackets_of(&entry.text, &chunks),
         id: entry.id,
         text: entry.text,
+        has_grounding: true,
         side: room.side,
         room: room.name,
         object: entry.grounding.object.map(|object| object.name),
@@ -149,6 +152,7 @@ fn from_tokens(entry: TokenEntry) -> Gold {
     pairs.sort();
     Gold {
         brackets: entry.chunks.iter().filter_map(|c| Some((tag_of(&c.tag)?, c.start, c.end))).collect(),
+        has_grounding: !entry.groundings.is_empty(),
         side,
         room: None,
         object: last(|g| g.object.as_ref()).map(|object| object.replace(' ', "_")),

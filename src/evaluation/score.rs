@@ -152,7 +152,7 @@ impl Group {
             found.iter().for_each(|bracket| self.bracket_precision.count(gold.brackets.contains(bracket)));
             self.exact_trees.count(found == gold.brackets);
         }
-        if reached.grounding {
+        if reached.grounding && gold.has_grounding {
             self.add_grounding(gold, answer.grounding.as_ref());
         }
         if reached.trial {
