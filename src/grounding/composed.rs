@@ -13,6 +13,12 @@ pub fn meaning_of(chunk: &ChunkWords, lexicon: &Lexicon) -> Meaning {
         Tag::Ormtp | Tag::Ormrp => words.room(),
         Tag::Irmrp => words.place(),
         Tag::Furtp => words.target(),
+        // "A table and two chairs": furniture that is only mentioned is no landmark.
+        Tag::Furrp if chunk.children.is_empty() && words.only_mentions() => Meaning {
+            score: 0.8,
+            because: "furniture in company, without a relation".to_string(),
+            ..Meaning::default()
+        },
         Tag::Furrp => words.landmark(Class::is_furniture),
         Tag::Obrp => words.landmark(|_| true),
         Tag::Obtp => words.object(),
@@ -28,6 +34,15 @@ struct Words<'u> {
 impl Words<'_> {
     fn has(&self, words: &[&str]) -> bool {
         self.units.iter().any(|unit| words.contains(&unit.lower.as_str()))
+    }
+
+    /// No word says how: "two chairs".
+    fn only_mentions(&self) -> bool {
+        let mentions = |unit: &Unit| {
+            matches!(unit.role(), Some(Role::Determiner | Role::Number | Role::Adjective | Role::Conjunction))
+                || unit.class().is_some()
+        };
+        self.units.iter().all(mentions)
     }
 
     fn has_role(&self, role: Role) -> bool {
@@ -121,7 +136,9 @@ impl Words<'_> {
     }
 
     fn door(&self) -> Option<Meaning> {
-        let beginning = self.has(&["beginning"]);
+        let beginning = self.has(&["beginning"])
+            || self.units.first().is_some_and(|unit| unit.role() == Some(Role::Adverb))
+                && (self.has(&["as", "when", "after", "once"]) || self.units.len() == 2 && self.has(&["inside"]));
         if self.noun(|class| class == Class::Opening).is_none() && !beginning {
             return None;
         }
@@ -133,7 +150,10 @@ impl Words<'_> {
     }
 
     fn part_of_room(&self) -> Option<Meaning> {
-        let far = self.has(&["far"]);
+        if self.has(&["where", "you", "him", "he"]) && self.has(&["across", "opposite"]) {
+            return None;
+        }
+        let far = self.has(&["far", "farther", "further", "furthest", "farthest"]);
         let corner = self.noun(|class| class == Class::Part).is_some();
         if corner
             && (far || self.has(&["back"]))
@@ -169,6 +189,9 @@ impl Words<'_> {
     }
 
     fn motion(&self) -> Option<Meaning> {
+        if self.has_role(Role::Look) && self.has(&["around"]) {
+            return Some(Meaning { score: 0.8, because: "looks around".to_string(), ..Meaning::default() });
+        }
         if self.has(&["around", "back"]) && self.moves() && self.side().is_none() {
             return Some(Meaning::of_pair("move", Direction::Back, "turn round"));
         }
@@ -187,7 +210,9 @@ impl Words<'_> {
         let direction = match self.side() {
             Some(side) => side,
             None if self.has(&["behind"]) => Direction::Back,
-            None if self.has(&["ahead", "front", "straight"]) => Direction::Front,
+            None if self.has(&["ahead", "straight"]) => Direction::Front,
+            None if self.has(&["front"]) && self.has(&["in"]) => Direction::Front,
+            None if self.has(&["across", "opposite"]) => Direction::Front,
             None => return None,
         };
         Some(Meaning::of_pair("robot", direction, "a side of the hearer"))
@@ -218,7 +243,10 @@ impl Words<'_> {
     }
 
     fn landmark(&self, fits: impl Fn(Class) -> bool + Copy) -> Meaning {
-        let nouns: Vec<&str> = self.nouns(fits).collect();
+        let mut nouns: Vec<String> = self.nouns(fits).map(str::to_string).collect();
+        if nouns.is_empty() {
+            nouns.extend(self.last_unknown());
+        }
         let Some(reference) = nouns.first() else {
             return Meaning { because: "no landmark in these words".to_string(), ..Meaning::default() };
         };
@@ -230,7 +258,7 @@ impl Words<'_> {
         pairs[0].ordinal = self.ordinal();
         if let Some(second) = nouns.get(1).filter(|second| *second != reference) {
             if direction == Direction::Between {
-                pairs[0].and = Some((*second).to_string());
+                pairs[0].and = Some(second.clone());
             }
             pairs.push(pair(second, direction));
         }
@@ -242,11 +270,17 @@ impl Words<'_> {
     fn object(&self) -> Meaning {
         let known = self.nouns(|class| class == Class::Object).last().map(str::to_string);
         let (object, score) = match known {
+            Some(name) if self.has(&["a", "an", "some"]) && !self.has(&["the"]) => (Some(name), 0.8),
             Some(name) => (Some(name), 0.97),
             None => (self.unknown_noun(), 0.6),
         };
         let because = object.as_ref().map_or("names no object".to_string(), |name| format!("names `{name}`"));
-        Meaning { object, attributes: self.attributes(), score, because, ..Meaning::default() }
+        Meaning { object, indefinite: score == 0.8, attributes: self.attributes(), score, because, ..Meaning::default() }
+    }
+
+    fn last_unknown(&self) -> Option<String> {
+        let word = self.units.iter().rev().find(|unit| unit.kind == UnitKind::Unknown)?.lower.replace('-', "_");
+        Some(singular(&word).to_string())
     }
 
     /// The last word the lexicon does not have, before the clause's verb: "the widget is".
@@ -257,6 +291,11 @@ impl Words<'_> {
         before.iter().any(article).then_some(())?;
         before.iter().rev().find(|unit| unit.kind == UnitKind::Unknown).map(|unit| unit.lower.replace('-', "_"))
     }
+}
+
+/// "terrariums" → "terrarium"; "glass" stays.
+fn singular(word: &str) -> &str {
+    word.strip_suffix('s').filter(|stem| stem.len() > 2 && !stem.ends_with('s')).unwrap_or(word)
 }
 
 fn number(word: &str) -> Option<f64> {

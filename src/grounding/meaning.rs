@@ -11,6 +11,8 @@ pub struct Meaning {
     pub side: Option<Direction>,
     /// Object named.
     pub object: Option<String>,
+    /// Whether the object came with "a": one among others, not the one asked for.
+    pub indefinite: bool,
     /// Target furniture.
     pub target: Option<String>,
     /// Colour, size, shape.

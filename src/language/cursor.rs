@@ -85,6 +85,10 @@ impl<'u> Cursor<'u> {
             at += 1;
         }
         if self.class(at).is_none() {
+            // "The object" names nothing, but is a noun.
+            if unknown && self.role(at) == Some(Role::Generic) {
+                return Some(NounPhrase { first, head: at, past: at + 1 });
+            }
             let head = at.checked_sub(1).filter(|&head| unknown && head >= first && self.is_unknown(head))?;
             return Some(NounPhrase { first, head, past: at });
         }
@@ -173,7 +177,8 @@ fn reading_of(name: &str) -> Option<Relation> {
 
 /// The relation a phrase's words begin with, for grounding.
 pub fn leading_relation(units: &[Unit]) -> Option<Relation> {
-    Cursor::new(units).relation(0).map(|(relation, _)| relation)
+    let cursor = Cursor::new(units);
+    cursor.relation(cursor.skip(0, &[Role::Adverb])).map(|(relation, _)| relation)
 }
 
 #[cfg(test)]

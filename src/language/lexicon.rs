@@ -106,6 +106,7 @@ pub enum Role {
     There,
     Lying,
     Adverb,
+    Generic,
 }
 
 impl Role {
@@ -147,6 +148,7 @@ impl Role {
             "there" => Self::There,
             "lying" => Self::Lying,
             "adverb" => Self::Adverb,
+            "generic" => Self::Generic,
             _ => return None,
         })
     }

@@ -15,6 +15,7 @@ mod lexicon;
 mod object_phrases;
 mod phrases;
 mod place_phrases;
+mod room_pick;
 mod stage;
 pub mod tokens;
 mod tree;

@@ -73,7 +73,7 @@ impl Cursor<'_> {
         }
     }
 
-    fn noun_has_article(&self, first: usize, head: usize) -> bool {
+    pub(super) fn noun_has_article(&self, first: usize, head: usize) -> bool {
         first < head && matches!(self.role(first), Some(Role::Determiner | Role::Hearer))
     }
 

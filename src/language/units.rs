@@ -115,6 +115,8 @@ fn settle_ambiguous(units: &mut [Unit]) {
                     | Role::Look
                     | Role::Preposition
                     | Role::Adjective
+                    | Role::Part
+                    | Role::Ahead
             )
         );
         if units[i].lower == "right" && !leads && AFTER_EMPHASIS.contains(&next.as_str()) {
