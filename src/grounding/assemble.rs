@@ -106,13 +106,19 @@ fn target_node(index: usize, chunks: &[ChunkWords], meanings: &[Meaning]) -> Nod
     }
 }
 
+/// "The computer desk … that desk": the head noun alone means the compound said before.
+fn same_target(known: Option<&str>, said: Option<&str>) -> bool {
+    let (Some(known), Some(said)) = (known, said) else { return false };
+    known == said || known.strip_suffix(said).is_some_and(|rest| rest.ends_with('_'))
+}
+
 /// A target without anything of its own that was just said is no new node: "… on that table".
 fn push_target(nodes: &mut Vec<Node>, node: Node) {
     let bare = node.pairs.is_empty();
     if node.target.is_none() && bare {
         return;
     }
-    let again = nodes.iter_mut().rev().find(|known| known.target.is_some() && known.target == node.target);
+    let again = nodes.iter_mut().rev().find(|known| same_target(known.target.as_deref(), node.target.as_deref()));
     match again {
         Some(known) if bare => known.attributes.extend(node.attributes),
         _ => nodes.push(node),

@@ -3,14 +3,15 @@
 use super::meaning::{Meaning, pair};
 use super::words::ChunkWords;
 use crate::language::{Class, Lexicon, Relation, Role, Unit, UnitKind, leading_relation, units};
-use crate::record::{Amount, Direction, Tag};
+use crate::record::{Amount, Direction, Grounding, Pair, Tag};
 
-/// What the own words of `chunk` mean.
-pub fn meaning_of(chunk: &ChunkWords, lexicon: &Lexicon) -> Meaning {
+/// What the own words of `chunk` mean. `continues_move`: it is joined to a move by "and" or "then".
+pub fn meaning_of(chunk: &ChunkWords, lexicon: &Lexicon, continues_move: bool) -> Meaning {
     let units = units(&chunk.words, lexicon);
     let words = Words { units: &units };
     match chunk.tag {
         Tag::Ormtp | Tag::Ormrp => words.room(),
+        Tag::Irmrp if continues_move => words.as_move().unwrap_or_else(|| words.place()),
         Tag::Irmrp => words.place(),
         Tag::Furtp => words.target(),
         // "A table and two chairs": furniture that is only mentioned is no landmark.
@@ -33,7 +34,7 @@ struct Words<'u> {
 
 impl Words<'_> {
     fn has(&self, words: &[&str]) -> bool {
-        self.units.iter().any(|unit| words.contains(&unit.lower.as_str()))
+        self.units.iter().any(|unit| words.contains(&unit.lower.as_ref()))
     }
 
     /// No word says how: "two chairs".
@@ -62,7 +63,7 @@ impl Words<'_> {
 
     /// The last side said: "left or … right" has been corrected.
     fn side(&self) -> Option<Direction> {
-        self.units.iter().rev().find_map(|unit| match (unit.role(), unit.lower.as_str()) {
+        self.units.iter().rev().find_map(|unit| match (unit.role(), unit.lower.as_ref()) {
             (Some(Role::Side), "left") => Some(Direction::Left),
             (Some(Role::Side), "right") => Some(Direction::Right),
             _ => None,
@@ -76,7 +77,7 @@ impl Words<'_> {
 
     fn attributes(&self) -> Vec<String> {
         let told = self.units.iter().filter(|unit| unit.role() == Some(Role::Adjective));
-        told.map(|unit| unit.lower.clone()).filter(|word| !matches!(word.as_str(), "other" | "same")).collect()
+        told.map(|unit| unit.lower.to_string()).filter(|word| !matches!(word.as_str(), "other" | "same")).collect()
     }
 
     /// "three steps", "2 m", "forty five degrees".
@@ -107,6 +108,13 @@ impl Words<'_> {
         };
         let score = if room.is_some() || side.is_some() { 0.95 } else { 0.5 };
         Meaning { room: room.map(str::to_string), side, ordinal: self.ordinal(), score, because, ..Meaning::default() }
+    }
+
+    /// "(Go forward) and then to the right", "and straight ahead".
+    fn as_move(&self) -> Option<Meaning> {
+        let place = self.units.iter().any(|unit| unit.class().is_some()) || self.has(&["on", "in", "end", "back", "far"]);
+        let direction = self.side().or_else(|| self.has_role(Role::Ahead).then_some(Direction::Front))?;
+        (!place).then(|| Meaning::of_pair("move", direction, "goes on from the move before"))
     }
 
     /// A place or a move inside the room.
@@ -232,7 +240,7 @@ impl Words<'_> {
         };
         let before_noun = |words: &[&str]| {
             let at = self.units.iter().position(|unit| unit.class().is_some()).unwrap_or(0);
-            self.units[..at].iter().skip(1).any(|unit| words.contains(&unit.lower.as_str()))
+            self.units[..at].iter().skip(1).any(|unit| words.contains(&unit.lower.as_ref()))
                 && !self.has(&["of", "middle", "edge", "top"])
         };
         if before_noun(&["back", "far"]) {
@@ -290,6 +298,25 @@ impl Words<'_> {
         let article = |unit: &Unit| matches!(unit.role(), Some(Role::Determiner | Role::Hearer));
         before.iter().any(article).then_some(())?;
         before.iter().rev().find(|unit| unit.kind == UnitKind::Unknown).map(|unit| unit.lower.replace('-', "_"))
+    }
+}
+
+/// Words of relation mark a landmark; a description that names no target but a table as landmark means that table.
+pub fn settle_target(grounding: &mut Grounding, lexicon: &Lexicon) {
+    if grounding.nodes.iter().any(|node| node.target.is_some()) {
+        return;
+    }
+    let holds = |pair: &Pair| {
+        pair.direction == Direction::Side && lexicon.class_of(&pair.reference) == Some(Class::TableLike)
+    };
+    for node in &mut grounding.nodes {
+        if let Some(at) = node.pairs.iter().position(holds) {
+            let table = node.pairs.remove(at);
+            node.target = Some(table.reference);
+            node.ordinal = table.ordinal;
+            node.score = 0.7.into();
+            return;
+        }
     }
 }
 

@@ -8,7 +8,6 @@ use std::collections::HashMap;
 
 use super::meaning::Meaning;
 use super::words::ChunkWords;
-use crate::language::Lexicon;
 use crate::record::Tag;
 
 /// What a stop word or a word never seen in training weighs.
@@ -57,12 +56,12 @@ impl Model {
     }
 
     /// The meaning of each chunk.
-    pub fn meanings(&self, chunks: &[ChunkWords], _lexicon: &Lexicon) -> Vec<Meaning> {
+    pub fn meanings(&self, chunks: &[ChunkWords]) -> Vec<Meaning> {
         chunks.iter().map(|chunk| self.meaning(chunk)).collect()
     }
 
     fn meaning(&self, chunk: &ChunkWords) -> Meaning {
-        let words: Vec<&str> = chunk.words.iter().map(|word| word.lower.as_str()).collect();
+        let words: Vec<&str> = chunk.words.iter().map(|word| word.lower.as_ref()).collect();
         let mut best: Option<(f64, &Example)> = None;
         for example in self.examples.iter().filter(|example| example.tag == chunk.tag) {
             let similarity = self.similarity(&words, example);

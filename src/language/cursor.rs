@@ -55,7 +55,7 @@ impl<'u> Cursor<'u> {
     }
 
     pub(super) fn lower(&self, at: usize) -> &'u str {
-        self.units.get(at).map_or("", |unit| unit.lower.as_str())
+        self.units.get(at).map_or("", |unit| unit.lower.as_ref())
     }
 
     pub(super) fn is(&self, at: usize, words: &[&str]) -> bool {

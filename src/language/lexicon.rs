@@ -163,6 +163,10 @@ pub struct Noun {
     pub class: Class,
 }
 
+/// Shorter words are too near to too many others to be taken for misspelt.
+const LETTERS_FOR_ONE_EDIT: usize = 5;
+const LETTERS_FOR_TWO_EDITS: usize = 9;
+
 /// A line of a lexicon file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{file}:{line}: {message}")]
@@ -182,7 +186,8 @@ pub struct Lexicon {
     /// From the words of a name, joined by spaces, to its noun.
     names: HashMap<String, usize>,
     words: HashMap<String, (String, Role)>,
-    longest: usize,
+    /// From the first word of names of several words to the number of words in the longest.
+    starts: HashMap<String, usize>,
 }
 
 impl Lexicon {
@@ -217,7 +222,10 @@ impl Lexicon {
                 if self.names.insert(other.to_string(), index).is_some_and(|old| old != index) {
                     return Err(wrong(format!("`{other}` already names another noun")));
                 }
-                self.longest = self.longest.max(other.split(' ').count());
+                if let Some((start, rest)) = other.split_once(' ') {
+                    let longest = self.starts.entry(start.to_string()).or_default();
+                    *longest = (*longest).max(1 + rest.split(' ').count());
+                }
             }
         }
         Ok(())
@@ -264,9 +272,34 @@ impl Lexicon {
         self.words.get(lower).map(|(pos, role)| (pos.as_str(), *role))
     }
 
-    /// Words in the longest name.
-    pub fn longest_name(&self) -> usize {
-        self.longest
+    /// Words in the longest name that begins with this word; 1 when none of several words does.
+    pub fn longest_name_from(&self, start: &str) -> usize {
+        self.starts.get(start).copied().unwrap_or(1)
+    }
+
+    /// The noun that a word misspells: one edit away, or two for a long word; the same first letter; the nearest,
+    /// then the first in the alphabet. Linear in the lexicon, so only for words nothing else explains.
+    pub fn nearest_noun(&self, word: &str) -> Option<&Noun> {
+        let most = if word.chars().count() < LETTERS_FOR_TWO_EDITS { 1 } else { 2 };
+        let first = word.chars().next()?;
+        if word.chars().count() < LETTERS_FOR_ONE_EDIT || !word.chars().all(char::is_alphabetic) {
+            return None;
+        }
+        let near = self.names.keys().filter(|name| name.starts_with(first) && name.len().abs_diff(word.len()) <= most);
+        let near = near.map(|name| (strsim::osa_distance(word, name), name)).filter(|(distance, _)| *distance <= most);
+        near.min().and_then(|(_, name)| self.noun(name))
+    }
+
+    /// Names of rooms: canonical name and every way to say it, in the order of the file.
+    pub fn rooms(&self) -> Vec<(&str, Vec<&str>)> {
+        let rooms = self.nouns.iter().enumerate().filter(|(_, noun)| noun.class == Class::Room);
+        let spoken = |index: usize| {
+            let mut names: Vec<&str> =
+                self.names.iter().filter(|(_, i)| **i == index).map(|(name, _)| name.as_str()).collect();
+            names.sort_unstable();
+            names
+        };
+        rooms.map(|(index, noun)| (noun.name.as_str(), spoken(index))).collect()
     }
 
     /// All nouns.

@@ -74,7 +74,30 @@ pub fn find(units: &[Unit]) -> Vec<Phrase> {
     }
     take_back_corrected(&mut phrases);
     continue_moves(&mut phrases, &cursor);
+    rule_out(&mut phrases, &cursor);
     phrases
+}
+
+/// "Not the table by the door": what is ruled out stays in the tree and no longer counts.
+fn rule_out(phrases: &mut [Phrase], cursor: &Cursor) {
+    let mut ruled_to = None;
+    for phrase in phrases.iter_mut() {
+        let place = matches!(
+            phrase.kind,
+            Kind::Turn | Kind::Side | Kind::Part | Kind::Target | Kind::Landmark | Kind::ObjectMark
+        );
+        let negated = (1..=2).any(|back| {
+            phrase.first >= back
+                && cursor.role(phrase.first - back) == Some(Role::Negation)
+                && (back == 1 || cursor.role(phrase.first - 1) == Some(Role::Adverb))
+        });
+        let attached = ruled_to == Some(phrase.first) && phrase.kind != Kind::Target && phrase.kind != Kind::Turn;
+        if place && (negated || attached) {
+            phrase.kind = Kind::Corrected;
+            phrase.inner = None;
+            ruled_to = Some(phrase.past);
+        }
+    }
 }
 
 /// "Go forward and then to the right": a side joined to a move is a move as well.

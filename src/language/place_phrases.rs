@@ -40,7 +40,7 @@ impl Cursor<'_> {
         if let Some(side) = (noun.first..noun.head).find(|&i| self.role(i) == Some(Role::Side)) {
             return Some(Phrase::new(Kind::Room, first, noun.past, "room of a side").with_inner(side, side + 1));
         }
-        let link = self.skip_clause_link(noun.past);
+        let link = self.skip_passage(self.skip_clause_link(noun.past));
         match self.side_past(link, false) {
             Some(past) => Some(Phrase::new(Kind::Room, first, past, "room on a side").with_inner(link, past)),
             None => Some(Phrase::new(Kind::Room, first, noun.past, "room")),
@@ -62,13 +62,28 @@ impl Cursor<'_> {
         if link > at + 1 { link } else { at }
     }
 
+    /// "(the bedroom) down the hall (to the right)".
+    fn skip_passage(&self, at: usize) -> usize {
+        if !self.is(at, &["down", "across", "off", "along", "in", "at", "from"]) {
+            return at;
+        }
+        let noun = self.noun_phrase(at + 1, false).filter(|noun| self.names_passage(noun.head));
+        let past = noun.map_or(at, |noun| noun.past);
+        if self.side_past(past, false).is_some() { past } else { at }
+    }
+
     /// A place that is no furniture: relative to the hearer, a part of the room, a wall, the door.
     pub(super) fn place(&self, at: usize) -> Option<Phrase> {
         let start = self.skip(at, &[Role::Adverb]);
         if let Some(past) = self.part_past(at).or_else(|| self.part_past(start)) {
             return Some(Phrase::new(Kind::Part, at, past, "part of the room"));
         }
-        let past = self.side_past(start, false).or_else(|| self.ahead_past(start))?;
+        // "It was the right": the preposition may be missing after a verb.
+        let after_copula = at > 0
+            && self.role(at - 1) == Some(Role::Copula)
+            && matches!(self.role(start), Some(Role::Determiner | Role::Hearer));
+        let side = self.side_past(start, false).or_else(|| self.side_past(start, after_copula));
+        let past = side.or_else(|| self.ahead_past(start))?;
         Some(Phrase::new(Kind::Side, at, past, "side of the hearer"))
     }
 

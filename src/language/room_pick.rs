@@ -59,7 +59,7 @@ impl Reader<'_> {
             Kind::Room => phrase.inner?,
             _ => return None,
         };
-        self.units[first..past].iter().rev().find_map(|unit| match (unit.role(), unit.lower.as_str()) {
+        self.units[first..past].iter().rev().find_map(|unit| match (unit.role(), unit.lower.as_ref()) {
             (Some(Role::Side), "left") => Some(Direction::Left),
             (Some(Role::Side), "right") => Some(Direction::Right),
             _ => None,
@@ -76,14 +76,14 @@ impl Reader<'_> {
         if named.is_some() {
             return named;
         }
+        let inside = (first..self.phrases.len()).find(|&i| self.is_inside(i)).unwrap_or(self.phrases.len());
+        let corrected = (0..inside).find(|&i| self.kind(i) == Some(Kind::Corrected));
+        if let Some(again) = corrected.and_then(|at| (at..inside).find(|&i| self.enters(i))) {
+            return Some(again);
+        }
         if self.kind(first) == Some(Kind::Room) || self.enters(first) {
             return Some(first);
         }
-        let corrected = (first..self.phrases.len()).find(|&i| self.kind(i) == Some(Kind::Corrected));
-        if let Some(again) = corrected.and_then(|at| (at..self.phrases.len()).find(|&i| self.enters(i))) {
-            return Some(again);
-        }
-        let inside = (first..self.phrases.len()).find(|&i| self.is_inside(i)).unwrap_or(self.phrases.len());
         let later = (first + 1..inside).find(|&i| self.kind(i) == Some(Kind::Room) && self.side(i).is_some());
         let later = later.or_else(|| (first + 1..inside).find(|&i| self.side(i).is_some() && self.enters(i)));
         Some(later.unwrap_or(first))
