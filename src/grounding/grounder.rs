@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use super::composed::{meaning_of, settle_target};
-use super::paper::Model;
+use super::paper::{LabelledTree, Model};
 use super::readings;
 use super::words::{ChunkWords, chunk_words_of};
 use super::{Meaning, assemble};
 use crate::language::tokens::{Word, tokenize};
 use crate::language::{Class, Lexicon, Role, Unit, UnitKind, units};
-use crate::record::{Chunk, Grounding, Tag, TextSpan, Why};
+use crate::record::{Chunk, Grounding, Tag, TextSpan, Token, Why};
 
 /// How chunks get their meaning.
 #[derive(Clone, Debug, Default)]
@@ -41,10 +41,16 @@ impl Grounder {
     }
 
     /// The meaning of a chunk tree over `text`.
-    pub fn ground(&self, text: &str, chunks: &[Chunk]) -> Grounding {
+    ///
+    /// `tokens` give the paper's method its parts of speech; they may be empty.
+    pub fn ground(&self, text: &str, tokens: &[Token], chunks: &[Chunk]) -> Grounding {
         let words = tokenize(text);
-        let chunks = chunk_words_of(&words, chunks);
-        let meanings = self.meanings(&words, &chunks);
+        let tree = chunks;
+        let chunks = chunk_words_of(&words, tree);
+        let meanings = match &self.method {
+            Method::Composed => self.composed(&words, &chunks),
+            Method::Paper(model) => model.meanings(&LabelledTree::unlabelled(text, tokens, tree)),
+        };
         let mut grounding = assemble(&chunks, &meanings);
         if matches!(self.method, Method::Composed) {
             settle_target(&mut grounding, &self.lexicon);
@@ -66,13 +72,19 @@ impl Grounder {
         grounding
     }
 
-    fn meanings(&self, words: &[Word], chunks: &[ChunkWords]) -> Vec<Meaning> {
-        match &self.method {
-            Method::Composed => (0..chunks.len())
-                .map(|i| meaning_of(&chunks[i], &self.lexicon, continues_move(i, words, chunks)))
-                .collect(),
-            Method::Paper(model) => model.meanings(chunks),
-        }
+    fn composed(&self, words: &[Word], chunks: &[ChunkWords]) -> Vec<Meaning> {
+        let meaning = |i: usize| meaning_of(&chunks[i], &self.lexicon, continues_move(i, words, chunks));
+        (0..chunks.len()).map(meaning).collect()
+    }
+
+    /// Whether the method looks at parts of speech.
+    pub fn wants_tokens(&self) -> bool {
+        matches!(self.method, Method::Paper(_))
+    }
+
+    /// The words it knows.
+    pub fn lexicon(&self) -> &Lexicon {
+        &self.lexicon
     }
 }
 

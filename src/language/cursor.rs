@@ -31,6 +31,9 @@ pub struct NounPhrase {
 /// Most words before a noun: longer runs are no noun phrase.
 const MOST_MODIFIERS: usize = 8;
 
+/// Longest run of words of one kind that a pattern steps over: keeps reading linear in nonsense as well.
+const LONGEST_RUN: usize = 24;
+
 /// A position-wise reader of units; positions past the end answer as if empty.
 #[derive(Clone, Copy)]
 pub struct Cursor<'u> {
@@ -72,7 +75,8 @@ impl<'u> Cursor<'u> {
 
     /// The first position from `at` on whose role is none of `roles`.
     pub(super) fn skip(&self, mut at: usize, roles: &[Role]) -> usize {
-        while self.role(at).is_some_and(|role| roles.contains(&role)) {
+        let limit = at + LONGEST_RUN;
+        while at < limit && self.role(at).is_some_and(|role| roles.contains(&role)) {
             at += 1;
         }
         at

@@ -1,6 +1,7 @@
 //! The words the robot knows: data in `corpus/lexicon/`, one line a word.
 
 use std::collections::HashMap;
+use std::path::Path;
 use std::sync::OnceLock;
 
 /// What kind of thing a noun names.
@@ -203,8 +204,18 @@ impl Lexicon {
         })
     }
 
-    /// Adds nouns: lines of `name TAB class [TAB other, names]`; `#` begins a comment.
+    /// Adds nouns: lines of `name TAB class [TAB other, names]`; `#` begins a comment. A name that is known is refused.
     pub fn add_nouns(&mut self, text: &str, file: &str) -> Result<(), LexiconError> {
+        self.read_nouns(text, file, false)
+    }
+
+    /// Adds a user's nouns: the same lines, and a name that is known from before gets the new meaning.
+    pub fn extend_nouns(&mut self, text: &str, file: &str) -> Result<(), LexiconError> {
+        self.read_nouns(text, file, true)
+    }
+
+    fn read_nouns(&mut self, text: &str, file: &str, replace: bool) -> Result<(), LexiconError> {
+        let known = self.nouns.len();
         for (line, fields) in lines(text) {
             let wrong = |message: String| LexiconError { file: file.to_string(), line, message };
             let (Some(name), Some(class)) = (fields.first(), fields.get(1)) else {
@@ -215,20 +226,23 @@ impl Lexicon {
             let class = if *name == "wall" { Class::Wall } else { class };
             let index = self.nouns.len();
             self.nouns.push(Noun { name: (*name).to_string(), class });
-            let others = fields.get(2).map_or("", |others| *others).split(',');
-            for other in
-                others.map(str::trim).filter(|other| !other.is_empty()).chain([name.replace('_', " ").as_str()])
-            {
-                if self.names.insert(other.to_string(), index).is_some_and(|old| old != index) {
+            let others = fields.get(2).map_or("", |others| *others).split(',').map(str::trim);
+            for other in others.filter(|other| !other.is_empty()).chain([name.replace('_', " ").as_str()]) {
+                let old = self.names.insert(other.to_string(), index).filter(|old| *old != index);
+                if old.is_some_and(|old| !replace || old >= known) {
                     return Err(wrong(format!("`{other}` already names another noun")));
                 }
-                if let Some((start, rest)) = other.split_once(' ') {
-                    let longest = self.starts.entry(start.to_string()).or_default();
-                    *longest = (*longest).max(1 + rest.split(' ').count());
-                }
+                self.note_start(other);
             }
         }
         Ok(())
+    }
+
+    fn note_start(&mut self, name: &str) {
+        if let Some((start, rest)) = name.split_once(' ') {
+            let longest = self.starts.entry(start.to_string()).or_default();
+            *longest = (*longest).max(1 + rest.split(' ').count());
+        }
     }
 
     /// Adds other words: lines of `word TAB part of speech TAB role`.
@@ -306,6 +320,16 @@ impl Lexicon {
     pub fn nouns(&self) -> &[Noun] {
         &self.nouns
     }
+}
+
+/// The embedded lexicon with the nouns of a file added; a noun of the file goes before the embedded one.
+pub fn lexicon_with(path: &Path) -> Result<Lexicon, LexiconError> {
+    let file = path.display().to_string();
+    let text = std::fs::read_to_string(path);
+    let text = text.map_err(|error| LexiconError { file: file.clone(), line: 0, message: error.to_string() })?;
+    let mut lexicon = Lexicon::embedded().clone();
+    lexicon.extend_nouns(&text, &file)?;
+    Ok(lexicon)
 }
 
 /// Numbered lines without comments, split at tabs.
