@@ -4,8 +4,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
-use spatial_fetch::evaluation::shipped_model;
-use spatial_fetch::grounding::{GroundStage, Grounder, Method};
+use spatial_fetch::grounding::{GroundStage, Settings};
 use spatial_fetch::record::Grounding;
 
 /// Finds what a description means: room, reference–direction–target nodes, object.
@@ -18,22 +17,10 @@ use spatial_fetch::record::Grounding;
     after_help = "Example:\n  echo 'the mug is in the bedroom on the table' | chunk | ground --format text"
 )]
 struct Arguments {
-    /// How chunks get their meaning
-    #[arg(long, value_enum, default_value = "composed")]
-    method: MethodName,
-    /// Leave out the reasons
-    #[arg(long)]
-    brief: bool,
+    #[command(flatten)]
+    settings: Settings,
     #[command(flatten)]
     common: Common,
-}
-
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum MethodName {
-    /// From what the words mean
-    Composed,
-    /// From the nearest labelled example of the shipped corpus, by the published equations
-    Paper,
 }
 
 impl Program for Arguments {
@@ -44,12 +31,17 @@ impl Program for Arguments {
     fn schema() -> schemars::Schema {
         schemars::schema_for!(Grounding)
     }
+    fn reads_standard_input(&self) -> bool {
+        self.settings.train.is_none() && self.common.files.is_empty()
+    }
     fn run(self) -> Result<Exit, Failure> {
-        let method = match self.method {
-            MethodName::Composed => Method::Composed,
-            MethodName::Paper => Method::Paper(Box::new(shipped_model().map_err(Failure::Failed)?)),
-        };
-        let stage = GroundStage(Grounder::new(method, self.brief));
+        let failed = |error: spatial_fetch::grounding::SettingsError| Failure::Failed(error.to_string());
+        if let Some(model) = self.settings.trained().map_err(failed)? {
+            let sink = cli::open_output(&self.common)?;
+            sink.write(format!("{model}\n").as_bytes())?;
+            return sink.finish().map(|()| Exit::Done);
+        }
+        let stage = GroundStage { grounder: self.settings.grounder().map_err(failed)?, answer: self.settings.answer };
         cli::run_filter(Self::NAME, &self.common, Intake::Records, &stage)
     }
 }

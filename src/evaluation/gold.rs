@@ -213,7 +213,9 @@ impl Gold {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grounding::{Meaning, assemble, chunk_words};
+    use crate::evaluation::labelled::LabelledChunk;
+    use crate::evaluation::model::in_order;
+    use crate::grounding::{Meaning, assemble, chunk_words, meaning_of_label};
     use crate::world::Scene;
 
     fn corpora() -> Vec<(&'static str, &'static str)> {
@@ -260,7 +262,8 @@ mod tests {
                 let entry: serde_json::Value = serde_json::from_str(line).expect("JSON");
                 let tree = parse_tree(entry["tree"].as_str().unwrap_or_default()).expect("a tree");
                 let chunks: Vec<_> = tree.chunks.iter().map(|c| c.to_chunk()).collect();
-                let meanings: Vec<Meaning> = super::super::model::meanings_of(&tree.chunks);
+                let meaning = |c: &LabelledChunk| meaning_of_label(c.tag, c.label.as_deref());
+                let meanings: Vec<Meaning> = in_order(&tree.chunks).into_iter().map(meaning).collect();
                 let grounding = assemble(&chunk_words(&tree.text, &chunks), &meanings);
                 let mut pairs: Vec<_> =
                     grounding.nodes.iter().flat_map(|n| &n.pairs).map(|p| (p.reference.clone(), p.direction)).collect();

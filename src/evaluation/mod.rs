@@ -12,6 +12,6 @@ pub use brackets::{Bracket, brackets_of};
 pub use gold::{Gold, GoldError, read_gold};
 pub use interval::Rate;
 pub use labelled::{LabelledChunk, LabelledTree, TreeError, parse_tree};
-pub use model::shipped_model;
+pub use model::training_record;
 pub use score::{Group, Scores, run_corpus, score};
 pub use table::text_tables;

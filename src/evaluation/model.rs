@@ -1,33 +1,70 @@
-//! The model of the paper's method, learned from the project's own labelled trees.
+//! The training file of the paper's method: the shipped templates, each chunk with its label.
+//!
+//! `corpus/training/descriptions.jsonl` is made from `corpus/templates.jsonl`
+//! (`UPDATE=1 cargo test --lib training_file`), so that the one is written by
+//! hand and the other never.
 
-use super::labelled::{LabelledChunk, parse_tree};
-use crate::grounding::paper::{Example, Model};
-use crate::grounding::{Meaning, chunk_words, meaning_of_label};
+use serde_json::{Map, Value, json};
 
-/// The model learned from the shipped templates.
-pub fn shipped_model() -> Result<Model, String> {
-    let corpus = include_str!("../../corpus/templates.jsonl");
-    let mut examples = Vec::new();
-    for line in corpus.lines() {
-        let entry: serde_json::Value = serde_json::from_str(line).map_err(|error| error.to_string())?;
-        let tree = parse_tree(entry["tree"].as_str().unwrap_or_default()).map_err(|error| error.to_string())?;
-        let chunks: Vec<_> = tree.chunks.iter().map(LabelledChunk::to_chunk).collect();
-        let words = chunk_words(&tree.text, &chunks);
-        for (chunk, meaning) in words.iter().zip(meanings_of(&tree.chunks)) {
-            let words = chunk.words.iter().map(|word| word.lower.clone()).collect();
-            examples.push(Example { tag: chunk.tag, words, meaning });
-        }
-    }
-    Ok(Model::train(examples, false))
+use super::labelled::{LabelledChunk, TreeError, parse_tree};
+use crate::record::Tag;
+
+/// A training record: id, text, chunks, and a grounding for each chunk in pre-order.
+pub fn training_record(id: &str, tree: &str) -> Result<Value, TreeError> {
+    let tree = parse_tree(tree)?;
+    let chunks: Vec<_> = tree.chunks.iter().map(LabelledChunk::to_chunk).collect();
+    let groundings: Vec<Value> = in_order(&tree.chunks).into_iter().map(label).collect();
+    Ok(json!({"id": id, "text": tree.text, "chunks": chunks, "groundings": groundings}))
 }
 
-/// The meanings the labels of a tree give its chunks, in pre-order.
-pub(super) fn meanings_of(chunks: &[LabelledChunk]) -> Vec<Meaning> {
-    let mut meanings = Vec::new();
+/// All chunks in pre-order.
+pub(super) fn in_order(chunks: &[LabelledChunk]) -> Vec<&LabelledChunk> {
+    let mut all = Vec::new();
     let mut waiting: Vec<&LabelledChunk> = chunks.iter().rev().collect();
     while let Some(chunk) = waiting.pop() {
-        meanings.push(meaning_of_label(chunk.tag, chunk.label.as_deref()));
+        all.push(chunk);
         waiting.extend(chunk.children.iter().rev());
     }
-    meanings
+    all
+}
+
+fn label(chunk: &LabelledChunk) -> Value {
+    let mut label = Map::new();
+    if let Some(text) = &chunk.label {
+        match chunk.tag {
+            Tag::Ormtp | Tag::Ormrp => label.insert("room".to_string(), json!(text)),
+            Tag::Obtp => label.insert("object".to_string(), json!(text)),
+            Tag::Furtp => label.insert("target".to_string(), json!(text)),
+            _ => {
+                let (reference, direction) = text.split_once('/').unwrap_or((text, "side"));
+                label.insert("reference".to_string(), json!(reference));
+                label.insert("direction".to_string(), json!(direction))
+            }
+        };
+    }
+    Value::Object(label)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_training_file_is_made_from_the_templates() {
+        let templates = include_str!("../../corpus/templates.jsonl");
+        let made: String = templates
+            .lines()
+            .map(|line| {
+                let entry: Value = serde_json::from_str(line).expect("JSON");
+                let (id, tree) = (entry["id"].as_str().unwrap_or_default(), entry["tree"].as_str().unwrap_or_default());
+                format!("{}\n", training_record(id, tree).expect("a tree"))
+            })
+            .collect();
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/corpus/training/descriptions.jsonl");
+        if std::env::var_os("UPDATE").is_some() {
+            std::fs::write(path, &made).expect("written");
+        }
+        let stored = std::fs::read_to_string(path).expect("readable");
+        assert!(stored == made, "run UPDATE=1 cargo test --lib training_file");
+    }
 }

@@ -208,7 +208,7 @@ pub fn run_corpus(gold: &[Gold], home: &Home, options: Options) -> Vec<String> {
     gold.par_iter()
         .map(|gold| {
             let (tokens, chunks) = chunk_text(&gold.text);
-            let grounding = grounder.ground(&gold.text, &chunks);
+            let grounding = grounder.ground(&gold.text, &tokens, &chunks);
             let plan = planner.plan(&grounding);
             let trial = run(home, &plan, options, &mut Silent).trial;
             let mut record = Record::from_text(&gold.id, &gold.text);

@@ -1,8 +1,8 @@
 //! Meanings of chunks → room, nodes, object: the paper's RDT assembly.
 
-use super::meaning::Meaning;
+use super::meaning::{Meaning, pair};
 use super::words::ChunkWords;
-use crate::record::{Grounding, Node, ObjectSlot, Pair, RoomSlot, Tag};
+use crate::record::{Direction, Grounding, Node, ObjectSlot, Pair, RoomSlot, Tag};
 
 /// Puts the chunks' meanings together, in pre-order.
 ///
@@ -37,10 +37,23 @@ pub fn assemble(chunks: &[ChunkWords], meanings: &[Meaning]) -> Grounding {
             _ => {}
         }
     }
+    add_company(&mut grounding, chunks, meanings);
     if !waiting.is_empty() {
         grounding.nodes.push(Node { pairs: waiting, score: 0.8.into(), ..Node::default() });
     }
     grounding
+}
+
+/// "There is a vase and the mug": other objects on the same support are landmarks.
+fn add_company(grounding: &mut Grounding, chunks: &[ChunkWords], meanings: &[Meaning]) {
+    let Some(object) = grounding.object.as_ref() else { return };
+    let Some(node) = grounding.nodes.iter_mut().rev().find(|node| node.target.is_some()) else { return };
+    let others = chunks.iter().zip(meanings).filter(|(chunk, _)| chunk.tag == Tag::Obtp);
+    for (_, meaning) in others {
+        if let Some(other) = meaning.object.as_ref().filter(|other| **other != object.name && meaning.indefinite) {
+            node.pairs.push(pair(other, Direction::Side));
+        }
+    }
 }
 
 /// Chunks whose inner references belong to them.
@@ -93,13 +106,19 @@ fn target_node(index: usize, chunks: &[ChunkWords], meanings: &[Meaning]) -> Nod
     }
 }
 
+/// "The computer desk … that desk": the head noun alone means the compound said before.
+fn same_target(known: Option<&str>, said: Option<&str>) -> bool {
+    let (Some(known), Some(said)) = (known, said) else { return false };
+    known == said || known.strip_suffix(said).is_some_and(|rest| rest.ends_with('_'))
+}
+
 /// A target without anything of its own that was just said is no new node: "… on that table".
 fn push_target(nodes: &mut Vec<Node>, node: Node) {
     let bare = node.pairs.is_empty();
     if node.target.is_none() && bare {
         return;
     }
-    let again = nodes.iter_mut().rev().find(|known| known.target.is_some() && known.target == node.target);
+    let again = nodes.iter_mut().rev().find(|known| same_target(known.target.as_deref(), node.target.as_deref()));
     match again {
         Some(known) if bare => known.attributes.extend(node.attributes),
         _ => nodes.push(node),

@@ -1,16 +1,45 @@
 //! What one chunk means.
 
+use serde::{Deserialize, Serialize};
+
 use crate::record::{Amount, Direction, Frame, Pair, Tag};
+
+/// What a chunk is about: step 1 of the published method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// The room to enter.
+    TargetRoom,
+    /// Places, moves, furniture.
+    InsideRoomNavigation,
+    /// The object to find.
+    TargetObject,
+}
+
+impl Kind {
+    /// The name as it stands in records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::TargetRoom => "target_room",
+            Self::InsideRoomNavigation => "inside_room_navigation",
+            Self::TargetObject => "target_object",
+        }
+    }
+}
 
 /// The meaning of one chunk's own words, without those of the chunks inside it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Meaning {
+    /// The type of step 1, where the method has one.
+    pub kind: Option<Kind>,
     /// Room named.
     pub room: Option<String>,
     /// Side that picks the room.
     pub side: Option<Direction>,
     /// Object named.
     pub object: Option<String>,
+    /// Whether the object came with "a": one among others, not the one asked for.
+    pub indefinite: bool,
     /// Target furniture.
     pub target: Option<String>,
     /// Colour, size, shape.

@@ -73,7 +73,7 @@ impl Cursor<'_> {
         }
     }
 
-    fn noun_has_article(&self, first: usize, head: usize) -> bool {
+    pub(super) fn noun_has_article(&self, first: usize, head: usize) -> bool {
         first < head && matches!(self.role(first), Some(Role::Determiner | Role::Hearer))
     }
 
@@ -84,7 +84,9 @@ impl Cursor<'_> {
         }
         let past = self.skip(at + 1, &PREDICATE);
         let short = self.is(at, &["its"]) && self.role(at + 1) == Some(Role::Preposition);
-        let place_follows = matches!(self.role(past), Some(Role::Preposition | Role::There | Role::Side | Role::Ahead));
+        let side = |at: usize| self.role(at) == Some(Role::Side) && self.class(at + 1).is_none();
+        let place_follows = matches!(self.role(past), Some(Role::Preposition | Role::There | Role::Side | Role::Ahead))
+            || matches!(self.role(past), Some(Role::Determiner | Role::Hearer)) && side(past + 1);
         let furniture_follows =
             self.noun_phrase(past, false).is_some_and(|n| self.class(n.head).is_some_and(Class::is_furniture));
         (short || past > at + 1 && (place_follows || furniture_follows) && !self.is(at, &["that"]))
