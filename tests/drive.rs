@@ -49,7 +49,7 @@ fn an_object_that_is_not_there_is_not_found_and_the_record_says_why() {
 fn every_action_says_why() {
     let ran = run(
         "drive",
-        &["--format", "text"],
+        &["--no-glance", "--format", "text"],
         planned("the statue is in the bedroom on the left on the nightstand to the right of the bed"),
     );
     let text = ran.expect_code(0).out;

@@ -50,7 +50,7 @@ fn an_error_names_file_line_column_and_id_and_stops() {
         run("ground", &[], "{\"id\":\"a\",\"text\":\"x\",\"chunks\":[]}\n{\"id\":\"b\",\"text\": 7}\n{\"id\":\"c\"}\n");
     let ran = ran.expect_code(1);
     assert_eq!(ran.out.lines().count(), 1);
-    assert!(ran.err.contains("ground: <stdin>:2:18: `text`: invalid type: integer"), "{}", ran.err);
+    assert!(ran.err.contains("ground: <stdin>:2:19: `text`: invalid type: integer"), "{}", ran.err);
     assert!(ran.err.contains("(record \"b\")") && !ran.err.contains("<stdin>:3"), "{}", ran.err);
 }
 
@@ -68,7 +68,7 @@ fn keep_going_reports_passes_on_and_exits_with_three() {
 fn a_half_line_at_the_end_is_said_to_be_one() {
     let ran = run("chunk", &["--keep-going"], "{\"id\":1,\"text\":\"ok\"}\n{\"id\":2,\"te").expect_code(3);
     assert_eq!(ran.records().len(), 1);
-    assert!(ran.err.contains("<stdin>:2:12: ") && ran.err.contains("ends in the middle of this record"), "{}", ran.err);
+    assert!(ran.err.contains("<stdin>:2:11: ") && ran.err.contains("ends in the middle of this record"), "{}", ran.err);
 }
 
 #[test]

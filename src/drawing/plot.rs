@@ -133,7 +133,9 @@ impl Canvas {
         let class = if outline.found { "item found" } else { "item" };
         self.put(format_args!(r#"<polygon class="{class}" points="{}"/>"#, points.join(" ")));
         let sum = outline.corners.iter().fold(Vec2::zeros(), |sum, corner| sum + corner);
-        self.text(sum / outline.corners.len().max(1) as f64, &outline.label, "label");
+        // Above the mark that shows where the object was found.
+        let aside = if outline.found { Vec2::new(0.0, 0.28) } else { Vec2::zeros() };
+        self.text(sum / outline.corners.len().max(1) as f64 + aside, &outline.label, "label");
     }
 
     /// Short lines half a second apart, with a tick for the heading, a ring at the start and an arrow at the end.
