@@ -33,7 +33,8 @@ fn take(grounding: &mut Grounding, unit: &Unit) -> bool {
             true
         }
         (UnitKind::Noun(name, Class::Object), _) => {
-            grounding.object = Some(ObjectSlot { name: (*name).to_string(), score: 0.97.into(), ..ObjectSlot::default() });
+            grounding.object =
+                Some(ObjectSlot { name: (*name).to_string(), score: 0.97.into(), ..ObjectSlot::default() });
             true
         }
         (UnitKind::Noun(name, class), _) if class.is_furniture() => {
@@ -70,11 +71,7 @@ fn settle_target(grounding: &mut Grounding, name: &str) {
     }
     match grounding.nodes.iter_mut().rev().find(|node| node.target.is_some()) {
         Some(node) => node.target = Some(name.to_string()),
-        None => grounding.nodes.push(Node {
-            target: Some(name.to_string()),
-            score: 0.95.into(),
-            ..Node::default()
-        }),
+        None => grounding.nodes.push(Node { target: Some(name.to_string()), score: 0.95.into(), ..Node::default() }),
     }
 }
 

@@ -112,7 +112,8 @@ impl Words<'_> {
 
     /// "(Go forward) and then to the right", "and straight ahead".
     fn as_move(&self) -> Option<Meaning> {
-        let place = self.units.iter().any(|unit| unit.class().is_some()) || self.has(&["on", "in", "end", "back", "far"]);
+        let place =
+            self.units.iter().any(|unit| unit.class().is_some()) || self.has(&["on", "in", "end", "back", "far"]);
         let direction = self.side().or_else(|| self.has_role(Role::Ahead).then_some(Direction::Front))?;
         (!place).then(|| Meaning::of_pair("move", direction, "goes on from the move before"))
     }
@@ -283,7 +284,14 @@ impl Words<'_> {
             None => (self.unknown_noun(), 0.6),
         };
         let because = object.as_ref().map_or("names no object".to_string(), |name| format!("names `{name}`"));
-        Meaning { object, indefinite: score == 0.8, attributes: self.attributes(), score, because, ..Meaning::default() }
+        Meaning {
+            object,
+            indefinite: score == 0.8,
+            attributes: self.attributes(),
+            score,
+            because,
+            ..Meaning::default()
+        }
     }
 
     fn last_unknown(&self) -> Option<String> {
@@ -306,9 +314,8 @@ pub fn settle_target(grounding: &mut Grounding, lexicon: &Lexicon) {
     if grounding.nodes.iter().any(|node| node.target.is_some()) {
         return;
     }
-    let holds = |pair: &Pair| {
-        pair.direction == Direction::Side && lexicon.class_of(&pair.reference) == Some(Class::TableLike)
-    };
+    let holds =
+        |pair: &Pair| pair.direction == Direction::Side && lexicon.class_of(&pair.reference) == Some(Class::TableLike);
     for node in &mut grounding.nodes {
         if let Some(at) = node.pairs.iter().position(holds) {
             let table = node.pairs.remove(at);

@@ -35,7 +35,10 @@ pub fn rank(grounding: &mut Grounding, chunks: &[ChunkWords], meanings: &[Meanin
     let margin = (grounding.score.0 - next).max(0.0);
     grounding.margin = margin.into();
     grounding.question = readings.first().filter(|_| margin < CLEAR_LEAD).map(|(_, question)| question.clone());
-    if grounding.question.is_none() && grounding.object.is_none() && !names_target(grounding) && grounding.room.is_some()
+    if grounding.question.is_none()
+        && grounding.object.is_none()
+        && !names_target(grounding)
+        && grounding.room.is_some()
     {
         grounding.question = Some("What shall I look for, and on which furniture is it?".to_string());
     }
@@ -71,11 +74,7 @@ fn other_target(grounding: &Grounding) -> Option<(Reading, String)> {
     Some((reading, format!("Is it on the {one} or on the {other}?")))
 }
 
-fn other_object(
-    grounding: &Grounding,
-    chunks: &[ChunkWords],
-    meanings: &[Meaning],
-) -> Option<(Reading, String)> {
+fn other_object(grounding: &Grounding, chunks: &[ChunkWords], meanings: &[Meaning]) -> Option<(Reading, String)> {
     let object = grounding.object.as_ref()?;
     let objects = chunks.iter().zip(meanings).filter(|(chunk, _)| chunk.tag == Tag::Obtp);
     let (name, meaning) = objects
@@ -91,11 +90,7 @@ fn other_object(
 }
 
 /// What was taken back could have been meant after all.
-fn uncorrected_room(
-    grounding: &Grounding,
-    chunks: &[ChunkWords],
-    meanings: &[Meaning],
-) -> Option<(Reading, String)> {
+fn uncorrected_room(grounding: &Grounding, chunks: &[ChunkWords], meanings: &[Meaning]) -> Option<(Reading, String)> {
     let room = grounding.room.as_ref()?;
     let side = room.side?;
     let taken_back = chunks.iter().zip(meanings).find_map(|(chunk, meaning)| {

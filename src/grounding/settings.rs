@@ -68,7 +68,11 @@ impl Settings {
         };
         match &self.lexicon {
             None => Ok(Grounder::new(method, self.brief)),
-            Some(path) => Ok(Grounder::with_lexicon(method, self.brief, Arc::new(lexicon_with(path).map_err(|e| SettingsError(e.to_string()))?))),
+            Some(path) => Ok(Grounder::with_lexicon(
+                method,
+                self.brief,
+                Arc::new(lexicon_with(path).map_err(|e| SettingsError(e.to_string()))?),
+            )),
         }
     }
 

@@ -1,7 +1,7 @@
 //! `ground` as a stage of the pipeline.
 
-use super::{Grounder, answer};
 use super::table::table;
+use super::{Grounder, answer};
 use crate::record::{Chunk, Grounding, Note, Record, Stage, StageError, Token};
 
 /// Adds `grounding` to records.

@@ -289,7 +289,8 @@ impl Cursor<'_> {
         if matches!(class, Class::TableLike | Class::Storage) {
             return false;
         }
-        let before = first >= 2 && self.is(first - 1, &["and"]) && self.class(first - 2).is_some_and(Class::is_furniture);
+        let before =
+            first >= 2 && self.is(first - 1, &["and"]) && self.class(first - 2).is_some_and(Class::is_furniture);
         let after = self.is(noun.past, &["and"])
             && self.noun_phrase(noun.past + 1, false).is_some_and(|n| self.class(n.head) == Some(Class::TableLike));
         before || after

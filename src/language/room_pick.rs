@@ -102,7 +102,8 @@ impl Reader<'_> {
     /// "On the table to the right": a side said of furniture is a place.
     fn is_beside_furniture(&self, at: usize) -> bool {
         let furniture = |kind| matches!(kind, Some(Kind::Target | Kind::Landmark | Kind::ObjectMark));
-        let after = self.phrases[..at].iter().rposition(|p| matches!(p.kind, Kind::Target | Kind::Landmark | Kind::Stop));
+        let after =
+            self.phrases[..at].iter().rposition(|p| matches!(p.kind, Kind::Target | Kind::Landmark | Kind::Stop));
         self.kind(at) == Some(Kind::Side) && after.is_some_and(|i| furniture(self.kind(i)))
     }
 
@@ -129,7 +130,9 @@ impl Reader<'_> {
                 && self.kind(first) == Some(Kind::Turn)
                 && self.phrases[last].past == next.first
                 && self.is_door(next);
-            let own_side = last == first && self.kind(first) == Some(Kind::Room) && self.is_sided_by_next(first)
+            let own_side = last == first
+                && self.kind(first) == Some(Kind::Room)
+                && self.is_sided_by_next(first)
                 && self.side(first).is_none();
             if !(room || door || own_side) {
                 break;

@@ -80,7 +80,8 @@ fn longest<'l>(words: &[Word<'l>], at: usize, lexicon: &'l Lexicon) -> Unit<'l> 
 
 /// Words after which a noun may stand: only there is a misspelt noun looked for.
 const BEFORE_NOUN: [&str; 16] = [
-    "the", "a", "an", "my", "your", "his", "her", "their", "our", "its", "this", "that", "two", "small", "little", "big",
+    "the", "a", "an", "my", "your", "his", "her", "their", "our", "its", "this", "that", "two", "small", "little",
+    "big",
 ];
 
 fn kind_of<'l>(lower: &str, before: &str, lexicon: &'l Lexicon) -> UnitKind<'l> {

@@ -183,9 +183,8 @@ impl Model {
 
     /// The nearest example, its similarity, and the nearest of another meaning.
     fn because(&self, kind: &Choice<Kind>, near: &[(usize, f64)]) -> String {
-        let words = |i: usize| {
-            self.examples[i].words.iter().map(|(word, _)| word.as_str()).collect::<Vec<_>>().join(" ")
-        };
+        let words =
+            |i: usize| self.examples[i].words.iter().map(|(word, _)| word.as_str()).collect::<Vec<_>>().join(" ");
         let nearest = near.iter().copied().reduce(|a, b| if b.1 > a.1 { b } else { a });
         let Some((best, similarity)) = nearest else { return String::new() };
         let rival = near
@@ -255,9 +254,7 @@ impl Model {
         match self.options.factors {
             Factors::Similarity => 1.0,
             Factors::Prior => by_tag(),
-            Factors::All => {
-                by_tag() * share(&|e| e.parent == chunk.parent) * share(&|e| e.children == chunk.children)
-            }
+            Factors::All => by_tag() * share(&|e| e.parent == chunk.parent) * share(&|e| e.children == chunk.children),
         }
     }
 }
