@@ -37,11 +37,25 @@ pub fn assemble(chunks: &[ChunkWords], meanings: &[Meaning]) -> Grounding {
             _ => {}
         }
     }
+    take_held(&mut grounding, chunks, meanings);
     add_company(&mut grounding, chunks, meanings);
     if !waiting.is_empty() {
         grounding.nodes.push(Node { pairs: waiting, score: 0.8.into(), ..Node::default() });
     }
     grounding
+}
+
+/// "The table with the phone on it", and no other object: the phone is what is asked for.
+fn take_held(grounding: &mut Grounding, chunks: &[ChunkWords], meanings: &[Meaning]) {
+    if grounding.object.is_some() {
+        return;
+    }
+    let held = chunks.iter().zip(meanings).filter(|(chunk, _)| chunk.tag == Tag::Obrp);
+    let Some(name) = held.filter_map(|(_, meaning)| meaning.object.as_ref()).next_back() else { return };
+    for node in &mut grounding.nodes {
+        node.pairs.retain(|pair| pair.reference != *name);
+    }
+    grounding.object = Some(ObjectSlot { name: name.clone(), score: 0.8.into(), ..ObjectSlot::default() });
 }
 
 /// "There is a vase and the mug": other objects on the same support are landmarks.
@@ -84,10 +98,13 @@ fn with_children(index: usize, chunks: &[ChunkWords], meanings: &[Meaning]) -> V
             .map(|&child| (chunks[child].start, child)),
     );
     parts.sort_unstable();
-    let pairs = parts.into_iter().flat_map(|(_, part)| {
-        if part == index { meanings[part].pairs.clone() } else { with_children(part, chunks, meanings) }
-    });
-    pairs.collect()
+    let mut pairs: Vec<Pair> = Vec::new();
+    for (_, part) in parts {
+        let said = if part == index { meanings[part].pairs.clone() } else { with_children(part, chunks, meanings) };
+        // "By the purse uh by the black purse": said twice in one breath, meant once.
+        pairs.extend(said.into_iter().filter(|pair| pairs.last() != Some(pair)).collect::<Vec<_>>());
+    }
+    pairs
 }
 
 /// Where a chunk's own words begin.
@@ -137,7 +154,7 @@ fn room_of(chunks: &[ChunkWords], meanings: &[Meaning]) -> Option<RoomSlot> {
     (name.is_some() || side.is_some()).then(|| RoomSlot { name, side, ordinal, score: score.into() })
 }
 
-/// The best-scored object; the first of equals.
+/// The best-scored object; the last of equals: what stands beside it is said first.
 fn object_of(chunks: &[ChunkWords], meanings: &[Meaning]) -> Option<ObjectSlot> {
     let named = chunks
         .iter()
@@ -145,7 +162,7 @@ fn object_of(chunks: &[ChunkWords], meanings: &[Meaning]) -> Option<ObjectSlot> 
         .filter(|(chunk, _)| chunk.tag == Tag::Obtp)
         .filter_map(|(_, m)| Some((m.object.as_ref()?, m)));
     let best = named.fold(None, |best: Option<(&String, &Meaning)>, next| match best {
-        Some(known) if known.1.score >= next.1.score => Some(known),
+        Some(known) if known.1.score > next.1.score => Some(known),
         _ => Some(next),
     });
     best.map(|(name, meaning)| ObjectSlot {

@@ -239,7 +239,7 @@ impl Cursor<'_> {
             return Phrase::new(Kind::Turn, at, past, "go to a side");
         }
         if self.is(end, &["back", "around"])
-            && !self.relation(end).is_some_and(|(_, np)| self.noun_phrase(np, false).is_some())
+            && self.relation(end).is_none_or(|(_, noun)| self.noun_phrase(noun, false).is_none())
         {
             return Phrase::new(Kind::Turn, at, end + 1, "go back");
         }
@@ -265,6 +265,12 @@ impl Cursor<'_> {
         let end = self.skip(until + 1, &SUBJECT_AND_VERB);
         if self.role(end) == Some(Role::Turn) {
             return Phrase::new(Kind::Go, at, until.max(at + 1), "go until a turn");
+        }
+        // "until you reach the opposite end", "until you are at the middle of the room".
+        if end > until + 1
+            && let Some(past) = self.part_after(end, end)
+        {
+            return Phrase::new(Kind::Go, at, past, "go until a part of the room");
         }
         let bare = self.noun_phrase(end, false).filter(|_| end > until + 1);
         if let Some(noun) = bare {
@@ -325,7 +331,10 @@ impl Cursor<'_> {
             side += 1;
         }
         if self.role(side) == Some(Role::Side) && self.class(side + 1).is_none() {
-            let past = self.skip(side + 1, &[Role::SideWord, Role::Turn, Role::Again, Role::Number, Role::DegreeUnit]);
+            let hand = self.skip(side + 1, &[Role::SideWord]);
+            // "a left turn"; but in "turn right turn left" the second turn is its own.
+            let turn = usize::from(self.is(hand, &["turn"]) && self.role(hand + 1) != Some(Role::Side));
+            let past = self.skip(hand + turn, &[Role::Again, Role::Number, Role::DegreeUnit]);
             return Some(Phrase::new(Kind::Turn, at, past, "turn"));
         }
         let wall = looks.then(|| self.noun_phrase(at + 1, false)).flatten();
@@ -347,6 +356,8 @@ impl Cursor<'_> {
             Role::Ordinal,
         ];
         self.role(at).is_some_and(|role| BEFORE.contains(&role))
+            // "take a le right": a word broken off.
+            || self.is_unknown(at) && self.role(at - 1) == Some(Role::Determiner) && self.role(at + 1) == Some(Role::Side)
             || self.is(at, &["to", "towards", "toward", "sharp", "instant", "hard", "degrees", "then", "off"])
     }
 }

@@ -43,7 +43,7 @@ pub fn build(phrases: &[Phrase], units: &[Unit], words: &[Word]) -> Vec<Chunk> {
             Some(ref pick) if i == pick.first => builder.add_room(pick, phrases),
             Some(ref pick) if pick.covers(i) => {}
             // Motions before the room is entered lead to it and make nothing of their own.
-            Some(ref pick) if i < pick.first && is_lead(phrase) => {}
+            Some(ref pick) if i < pick.first && (is_lead(phrase) || pick.on_the_way.contains(&i)) => {}
             Some(ref pick) if pick.restated.contains(&i) => builder.restate_room(phrase),
             _ => builder.add(phrase),
         }
