@@ -47,7 +47,8 @@ pub fn assemble(chunks: &[ChunkWords], meanings: &[Meaning]) -> Grounding {
 
 /// "The table with the phone on it", and no other object: the phone is what is asked for.
 fn take_held(grounding: &mut Grounding, chunks: &[ChunkWords], meanings: &[Meaning]) {
-    if grounding.object.is_some() {
+    // A word the lexicon lacks is a guess, and what is held is not.
+    if grounding.object.as_ref().is_some_and(|object| object.score.0 > 0.7) {
         return;
     }
     let held = chunks.iter().zip(meanings).filter(|(chunk, _)| chunk.tag == Tag::Obrp);
@@ -61,7 +62,9 @@ fn take_held(grounding: &mut Grounding, chunks: &[ChunkWords], meanings: &[Meani
 /// "There is a vase and the mug": other objects on the same support are landmarks.
 fn add_company(grounding: &mut Grounding, chunks: &[ChunkWords], meanings: &[Meaning]) {
     let Some(object) = grounding.object.as_ref() else { return };
-    let Some(node) = grounding.nodes.iter_mut().rev().find(|node| node.target.is_some()) else { return };
+    let last = grounding.nodes.len().checked_sub(1);
+    let Some(at) = grounding.nodes.iter().rposition(|node| node.target.is_some()).or(last) else { return };
+    let node = &mut grounding.nodes[at];
     let others = chunks.iter().zip(meanings).filter(|(chunk, _)| chunk.tag == Tag::Obtp);
     for (_, meaning) in others {
         if let Some(other) = meaning.object.as_ref().filter(|other| **other != object.name && meaning.indefinite) {

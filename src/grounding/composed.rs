@@ -186,7 +186,7 @@ impl Words<'_> {
         {
             return Some(Meaning::of_pair("room", side, "a side of the room"));
         }
-        if far || self.has(&["end", "rear", "opposite", "across", "other"]) || self.names_back() {
+        if far || self.has(&["end", "rear", "opposite", "across", "cross", "crosses", "other"]) || self.names_back() {
             return Some(Meaning::of_pair("room", Direction::Back, "the far end of the room"));
         }
         if corner {
