@@ -2,7 +2,7 @@
 
 use super::meaning::{Meaning, pair};
 use super::words::ChunkWords;
-use crate::record::{Direction, Grounding, Node, ObjectSlot, Pair, RoomSlot, Tag};
+use crate::record::{Direction, Frame, Grounding, Node, ObjectSlot, Pair, RoomSlot, Tag};
 
 /// Puts the chunks' meanings together, in pre-order.
 ///
@@ -37,12 +37,26 @@ pub fn assemble(chunks: &[ChunkWords], meanings: &[Meaning]) -> Grounding {
             _ => {}
         }
     }
+    if meanings.iter().any(|meaning| meaning.facing) {
+        face(&mut grounding);
+    }
     take_held(&mut grounding, chunks, meanings);
     add_company(&mut grounding, chunks, meanings);
     if !waiting.is_empty() {
         grounding.nodes.push(Node { pairs: waiting, score: 0.8.into(), ..Node::default() });
     }
     grounding
+}
+
+/// "To the left of the bed as you face it": left and right of furniture are read by that person.
+fn face(grounding: &mut Grounding) {
+    let pairs = grounding.nodes.iter_mut().flat_map(|node| &mut node.pairs);
+    for pair in pairs.filter(|pair| matches!(pair.frame, Frame::Viewer | Frame::Intrinsic)) {
+        let furniture = !matches!(pair.reference.as_str(), "room" | "wall" | "door");
+        if furniture && matches!(pair.direction, Direction::Left | Direction::Right) {
+            pair.frame = Frame::Facing;
+        }
+    }
 }
 
 /// "The table with the phone on it", and no other object: the phone is what is asked for.
@@ -84,10 +98,25 @@ fn is_static(meaning: &Meaning) -> bool {
 
 /// Whether the next chunk of the same parent that is no place is a target, within a clause about the object.
 fn leads_to_target(index: usize, chunks: &[ChunkWords]) -> bool {
+    if chunks[index].parent.is_none() {
+        return brings_in_target(index, chunks);
+    }
     let Some(parent) = chunks[index].parent.filter(|&parent| chunks[parent].tag == Tag::Obtp) else { return false };
     let after = chunks[parent].children.iter().filter(|&&child| child > index);
     after.map(|&child| chunks[child].tag).find(|tag| !matches!(tag, Tag::Irmrp | Tag::Furrp | Tag::Obrp | Tag::Pers))
         == Some(Tag::Furtp)
+}
+
+/// "Behind the bed there is a desk": a place without a verb, and the very next clause names the target there.
+fn brings_in_target(index: usize, chunks: &[ChunkWords]) -> bool {
+    const PLACES: [&str; 14] = [
+        "behind", "in", "on", "at", "next", "by", "beside", "between", "near", "against", "to", "past", "across",
+        "close",
+    ];
+    let place = chunks[index].words.first().is_some_and(|word| PLACES.contains(&word.lower.as_ref()));
+    let next = chunks[index + 1..].iter().find(|chunk| chunk.parent.is_none());
+    let bare = |chunk: &ChunkWords| !chunk.children.iter().any(|&child| chunks[child].tag == Tag::Irmrp);
+    place && bare(&chunks[index]) && next.is_some_and(|chunk| chunk.tag == Tag::Furtp && bare(chunk))
 }
 
 /// The pairs of a chunk and of the chunks in it, in the order spoken.

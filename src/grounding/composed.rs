@@ -23,6 +23,14 @@ pub fn meaning_of(chunk: &ChunkWords, lexicon: &Lexicon, continues_move: bool) -
         Tag::Furrp => words.landmark(Class::is_furniture),
         Tag::Obrp => words.object_landmark(),
         Tag::Obtp => words.object(),
+        Tag::Pers if words.has(&["face", "faces", "facing", "looking", "look", "looks"]) && words.side().is_none() => {
+            Meaning {
+                facing: true,
+                score: 0.9,
+                because: "seen by someone who faces it".to_string(),
+                ..Meaning::default()
+            }
+        }
         Tag::Pers => words.side().map_or_else(Meaning::default, |side| Meaning::of_pair("robot", side, "whose side")),
         Tag::Conf => Meaning { score: 1.0, because: "taken back by the speaker".to_string(), ..Meaning::default() },
     }

@@ -25,6 +25,8 @@ pub enum Kind {
     ObjectMark,
     /// The head of a clause about the object.
     Object,
+    /// Whose view a direction is said from.
+    Perspective,
     /// A self-correction.
     Correction,
     /// What a correction took back.
@@ -131,6 +133,7 @@ fn take_back_corrected(phrases: &mut Vec<Phrase>) {
         let about_place = |kind: Kind| matches!(kind, Kind::Turn | Kind::Side | Kind::Room | Kind::Part);
         let again = phrases[at + 1..]
             .iter()
+            .filter(|next| next.kind != Kind::Go || kind == Kind::Go)
             .take(2)
             .any(|next| next.kind == kind || about_place(kind) && about_place(next.kind));
         if again && !matches!(kind, Kind::Object | Kind::Stop | Kind::Correction) {
@@ -161,12 +164,35 @@ impl Cursor<'_> {
             return Some(Phrase::new(Kind::Stop, at, at + 1, "stop"));
         }
         self.correction(at)
+            .or_else(|| self.perspective(at))
             .or_else(|| self.object_clause(at))
             .or_else(|| self.motion(at))
             .or_else(|| self.turn(at))
             .or_else(|| self.room(at, at))
             .or_else(|| self.place(at))
             .or_else(|| self.furniture(at, at))
+    }
+
+    /// "As you face it", "when you are looking at the bed", "from your point of view".
+    fn perspective(&self, at: usize) -> Option<Phrase> {
+        if self.is(at, &["from"]) && self.role(at + 1) == Some(Role::Hearer) {
+            let view = self.is(at + 2, &["view", "perspective", "side", "point"]);
+            let of_view = usize::from(self.is(at + 3, &["of"])) * 2;
+            return view.then(|| Phrase::new(Kind::Perspective, at, at + 3 + of_view, "whose view"));
+        }
+        let subject = self.is(at, &["as", "when", "if", "while"]) && self.role(at + 1) == Some(Role::Pronoun);
+        let verb = self.skip(at + 2, &[Role::Copula]);
+        if !subject || !self.is(verb, &["face", "facing", "look", "looking", "looked", "faces", "looks"]) {
+            return None;
+        }
+        let object = verb + 1 + usize::from(self.is(verb + 1, &["at", "in", "toward", "towards"]));
+        // "If you look to your left" is a turn.
+        if self.is(object, &["to", "left", "right", "straight", "down"]) {
+            return None;
+        }
+        let pronoun = usize::from(self.is(object, &["it", "them", "that"]));
+        let past = self.noun_phrase(object, false).map_or(object + pronoun, |noun| noun.past);
+        Some(Phrase::new(Kind::Perspective, at, past, "whose view"))
     }
 
     fn correction(&self, at: usize) -> Option<Phrase> {

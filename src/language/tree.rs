@@ -86,6 +86,7 @@ impl Builder {
             }
             Kind::Room => self.attach(Node::new(Tag::Ormtp, phrase).with_child(Tag::Ormrp, phrase.inner)),
             Kind::Corrected => self.attach(Node::new(Tag::Conf, phrase)),
+            Kind::Perspective => self.attach(Node::new(Tag::Pers, phrase)),
             Kind::Correction => {}
         }
     }
