@@ -21,8 +21,16 @@ pub fn meaning_of(chunk: &ChunkWords, lexicon: &Lexicon, continues_move: bool) -
             ..Meaning::default()
         },
         Tag::Furrp => words.landmark(Class::is_furniture),
-        Tag::Obrp => words.landmark(|_| true),
+        Tag::Obrp => words.object_landmark(),
         Tag::Obtp => words.object(),
+        Tag::Pers if words.has(&["face", "faces", "facing", "looking", "look", "looks"]) && words.side().is_none() => {
+            Meaning {
+                facing: true,
+                score: 0.9,
+                because: "seen by someone who faces it".to_string(),
+                ..Meaning::default()
+            }
+        }
         Tag::Pers => words.side().map_or_else(Meaning::default, |side| Meaning::of_pair("robot", side, "whose side")),
         Tag::Conf => Meaning { score: 1.0, because: "taken back by the speaker".to_string(), ..Meaning::default() },
     }
@@ -186,8 +194,7 @@ impl Words<'_> {
         {
             return Some(Meaning::of_pair("room", side, "a side of the room"));
         }
-        let goes_back = self.has_role(Role::Motion) && !self.has_role(Role::Preposition);
-        if far || self.has(&["end", "rear", "opposite", "across", "other"]) || self.has(&["back"]) && !goes_back {
+        if far || self.has(&["end", "rear", "opposite", "across", "cross", "crosses", "other"]) || self.names_back() {
             return Some(Meaning::of_pair("room", Direction::Back, "the far end of the room"));
         }
         if corner {
@@ -195,6 +202,15 @@ impl Words<'_> {
         }
         let front = self.has(&["front"]) && of_room;
         front.then(|| Meaning::of_pair("room", Direction::Front, "the front of the room"))
+    }
+
+    /// "The back", "in back"; not "go back to".
+    fn names_back(&self) -> bool {
+        let named = |before: &Unit| {
+            matches!(before.role(), Some(Role::Determiner | Role::Hearer | Role::Adjective | Role::Part))
+                || matches!(before.lower.as_ref(), "in" | "at" | "very")
+        };
+        self.units.windows(2).any(|pair| pair[1].lower == "back" && named(&pair[0]))
     }
 
     fn motion(&self) -> Option<Meaning> {
@@ -274,6 +290,14 @@ impl Words<'_> {
         // The second reference of "between" is told within the pair as well; scoring wants both named.
         let because = format!("`{reference}` as landmark, {}", direction.name());
         Meaning { pairs, score: 0.9, because, ..Meaning::default() }
+    }
+
+    /// An object as landmark; one that "the table has on it" may be the very object.
+    fn object_landmark(&self) -> Meaning {
+        let meaning = self.landmark(|_| true);
+        let on_it = self.has(&["with", "has", "had", "have"]) && self.has(&["on"]) && self.has(&["the", "my", "your"]);
+        let object = self.noun(|class| class == Class::Object).filter(|_| on_it).map(str::to_string);
+        Meaning { object, ..meaning }
     }
 
     fn object(&self) -> Meaning {

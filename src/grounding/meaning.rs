@@ -48,6 +48,8 @@ pub struct Meaning {
     pub ordinal: Option<u32>,
     /// References and directions, usually one.
     pub pairs: Vec<Pair>,
+    /// "As you face it": the pair before is seen by someone who stands before the item and looks at it.
+    pub facing: bool,
     /// How sure, 0 to 1.
     pub score: f64,
     /// In words, why.

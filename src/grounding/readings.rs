@@ -15,12 +15,16 @@ const UNCORRECTED: f64 = 0.4;
 /// What a reading with a room that nobody said is worth beside one that waits for it.
 const GUESSED_SIDE: f64 = 0.9;
 
-/// The confidence in the whole: the product of its parts', each part told apart by how it was read.
+/// The parts of a reading stand and fall together more than independent ones would: the product of their scores is
+/// too low by about its square root, measured on 150 spoken descriptions.
+const DEPENDENCE: f64 = 0.5;
+
+/// The confidence in the whole: the product of its parts', made up for their dependence.
 pub fn score(grounding: &mut Grounding) {
     let nodes = grounding.nodes.iter().map(|node| node.score.0);
     let room = grounding.room.iter().map(|room| room.score.0);
     let object = grounding.object.iter().map(|object| object.score.0);
-    grounding.score = nodes.chain(room).chain(object).product::<f64>().clamp(0.0, 1.0).into();
+    grounding.score = nodes.chain(room).chain(object).product::<f64>().clamp(0.0, 1.0).powf(DEPENDENCE).into();
 }
 
 /// Fills in `readings`, `margin` and `question`.

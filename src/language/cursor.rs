@@ -112,7 +112,7 @@ impl<'u> Cursor<'u> {
                     || self.role(at + 1) == Some(Role::Adjective)
                     || self.role(at + 1) == Some(Role::Side)
             }
-            Some(Role::Adverb) => self.is(at, &["very"]),
+            Some(Role::Adverb) => self.is(at, &["very", "immediate"]),
             Some(Role::There) => false,
             _ => self.is_unknown(at) || self.is(at, &["'s"]) && at > 0 && self.is_unknown(at - 1),
         }

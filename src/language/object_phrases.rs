@@ -48,6 +48,10 @@ impl Cursor<'_> {
         }
         let noun = self.noun_phrase(verb, true)?;
         match self.class(noun.head) {
+            // "There is a purse sitting there": company on the same support.
+            Some(Class::Object) if self.is_company(noun) => {
+                Some(Phrase::new(Kind::ObjectMark, at, self.on_it_past(noun.past), "there is another object on it"))
+            }
             Some(Class::Object) | None => Some(Phrase::new(Kind::Object, at, noun.past, "there is the object")),
             Some(class) if class.is_furniture() => Some(Phrase::new(Kind::Target, at, noun.past, "there is furniture")),
             _ => None,
@@ -73,6 +77,12 @@ impl Cursor<'_> {
         }
     }
 
+    fn is_company(&self, noun: super::cursor::NounPhrase) -> bool {
+        let lying = self.skip(noun.past, &[Role::Lying]);
+        let there = lying > noun.past && self.role(lying) == Some(Role::There);
+        self.is(noun.first, &["a", "an", "some"]) && (there || self.on_it_past(noun.past) > noun.past)
+    }
+
     pub(super) fn noun_has_article(&self, first: usize, head: usize) -> bool {
         first < head && matches!(self.role(first), Some(Role::Determiner | Role::Hearer))
     }
@@ -96,7 +106,7 @@ impl Cursor<'_> {
     /// "on the desk is the pad": the subject after its verb.
     fn is_thing(&self, at: usize) -> Option<Phrase> {
         let noun_at = self.skip(at, &PREDICATE);
-        if noun_at == at {
+        if noun_at == at || (at..noun_at).any(|i| self.role(i) == Some(Role::Has) && !self.is(i, &["'ve", "'s"])) {
             return None;
         }
         let noun = self.noun_phrase(noun_at, true)?;

@@ -25,6 +25,8 @@ pub enum Kind {
     ObjectMark,
     /// The head of a clause about the object.
     Object,
+    /// Whose view a direction is said from.
+    Perspective,
     /// A self-correction.
     Correction,
     /// What a correction took back.
@@ -131,6 +133,7 @@ fn take_back_corrected(phrases: &mut Vec<Phrase>) {
         let about_place = |kind: Kind| matches!(kind, Kind::Turn | Kind::Side | Kind::Room | Kind::Part);
         let again = phrases[at + 1..]
             .iter()
+            .filter(|next| next.kind != Kind::Go || kind == Kind::Go)
             .take(2)
             .any(|next| next.kind == kind || about_place(kind) && about_place(next.kind));
         if again && !matches!(kind, Kind::Object | Kind::Stop | Kind::Correction) {
@@ -161,12 +164,35 @@ impl Cursor<'_> {
             return Some(Phrase::new(Kind::Stop, at, at + 1, "stop"));
         }
         self.correction(at)
+            .or_else(|| self.perspective(at))
             .or_else(|| self.object_clause(at))
             .or_else(|| self.motion(at))
             .or_else(|| self.turn(at))
             .or_else(|| self.room(at, at))
             .or_else(|| self.place(at))
             .or_else(|| self.furniture(at, at))
+    }
+
+    /// "As you face it", "when you are looking at the bed", "from your point of view".
+    fn perspective(&self, at: usize) -> Option<Phrase> {
+        if self.is(at, &["from"]) && self.role(at + 1) == Some(Role::Hearer) {
+            let view = self.is(at + 2, &["view", "perspective", "side", "point"]);
+            let of_view = usize::from(self.is(at + 3, &["of"])) * 2;
+            return view.then(|| Phrase::new(Kind::Perspective, at, at + 3 + of_view, "whose view"));
+        }
+        let subject = self.is(at, &["as", "when", "if", "while"]) && self.role(at + 1) == Some(Role::Pronoun);
+        let verb = self.skip(at + 2, &[Role::Copula]);
+        if !subject || !self.is(verb, &["face", "facing", "look", "looking", "looked", "faces", "looks"]) {
+            return None;
+        }
+        let object = verb + 1 + usize::from(self.is(verb + 1, &["at", "in", "toward", "towards"]));
+        // "If you look to your left" is a turn.
+        if self.is(object, &["to", "left", "right", "straight", "down"]) {
+            return None;
+        }
+        let pronoun = usize::from(self.is(object, &["it", "them", "that"]));
+        let past = self.noun_phrase(object, false).map_or(object + pronoun, |noun| noun.past);
+        Some(Phrase::new(Kind::Perspective, at, past, "whose view"))
     }
 
     fn correction(&self, at: usize) -> Option<Phrase> {
@@ -239,7 +265,7 @@ impl Cursor<'_> {
             return Phrase::new(Kind::Turn, at, past, "go to a side");
         }
         if self.is(end, &["back", "around"])
-            && !self.relation(end).is_some_and(|(_, np)| self.noun_phrase(np, false).is_some())
+            && self.relation(end).is_none_or(|(_, noun)| self.noun_phrase(noun, false).is_none())
         {
             return Phrase::new(Kind::Turn, at, end + 1, "go back");
         }
@@ -265,6 +291,12 @@ impl Cursor<'_> {
         let end = self.skip(until + 1, &SUBJECT_AND_VERB);
         if self.role(end) == Some(Role::Turn) {
             return Phrase::new(Kind::Go, at, until.max(at + 1), "go until a turn");
+        }
+        // "until you reach the opposite end", "until you are at the middle of the room".
+        if end > until + 1
+            && let Some(past) = self.part_after(end, end)
+        {
+            return Phrase::new(Kind::Go, at, past, "go until a part of the room");
         }
         let bare = self.noun_phrase(end, false).filter(|_| end > until + 1);
         if let Some(noun) = bare {
@@ -325,7 +357,10 @@ impl Cursor<'_> {
             side += 1;
         }
         if self.role(side) == Some(Role::Side) && self.class(side + 1).is_none() {
-            let past = self.skip(side + 1, &[Role::SideWord, Role::Turn, Role::Again, Role::Number, Role::DegreeUnit]);
+            let hand = self.skip(side + 1, &[Role::SideWord]);
+            // "a left turn"; but in "turn right turn left" the second turn is its own.
+            let turn = usize::from(self.is(hand, &["turn"]) && self.role(hand + 1) != Some(Role::Side));
+            let past = self.skip(hand + turn, &[Role::Again, Role::Number, Role::DegreeUnit]);
             return Some(Phrase::new(Kind::Turn, at, past, "turn"));
         }
         let wall = looks.then(|| self.noun_phrase(at + 1, false)).flatten();
@@ -347,6 +382,8 @@ impl Cursor<'_> {
             Role::Ordinal,
         ];
         self.role(at).is_some_and(|role| BEFORE.contains(&role))
+            // "take a le right": a word broken off.
+            || self.is_unknown(at) && self.role(at - 1) == Some(Role::Determiner) && self.role(at + 1) == Some(Role::Side)
             || self.is(at, &["to", "towards", "toward", "sharp", "instant", "hard", "degrees", "then", "off"])
     }
 }

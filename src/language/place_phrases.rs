@@ -31,7 +31,11 @@ impl Cursor<'_> {
         let is_room = match self.class(noun.head)? {
             Class::Room => !self.names_passage(noun.head),
             // A door that is entered stands for its room; "by the door" is a place.
-            Class::Opening => first == noun.first || self.leads_through(first, noun.first),
+            Class::Opening => {
+                let sided = || self.side_past(self.skip_clause_link(noun.past), false).is_some();
+                let towards = (first..noun.first).any(|i| self.is(i, &["to"]));
+                first == noun.first || self.leads_through(first, noun.first) || towards && first < noun.first && sided()
+            }
             _ => return None,
         };
         if !is_room {
@@ -39,6 +43,12 @@ impl Cursor<'_> {
         }
         if let Some(side) = (noun.first..noun.head).find(|&i| self.role(i) == Some(Role::Side)) {
             return Some(Phrase::new(Kind::Room, first, noun.past, "room of a side").with_inner(side, side + 1));
+        }
+        let ends = |at: usize| at >= self.len() || self.is_stop(at) || self.role(at) == Some(Role::Conjunction);
+        if self.role(noun.past) == Some(Role::Side) && ends(noun.past + 1) {
+            return Some(
+                Phrase::new(Kind::Room, first, noun.past + 1, "room, side").with_inner(noun.past, noun.past + 1),
+            );
         }
         let link = self.skip_passage(self.skip_clause_link(noun.past));
         match self.side_past(link, false) {
@@ -199,7 +209,7 @@ impl Cursor<'_> {
         if self.is(start, &["inside"]) && self.role(start + 1) != Some(Role::Determiner) {
             return Some(start + 1);
         }
-        if !self.is(start, &["as", "when", "after", "once"]) {
+        if !self.is(start, &["as", "when", "after"]) {
             return None;
         }
         let verb = self.skip(start + 1, &[Role::Pronoun, Role::Modal, Role::Adverb]);
@@ -220,8 +230,13 @@ impl Cursor<'_> {
         if !self.is(at, &BEFORE_PART) {
             return None;
         }
-        let mut i = at + 1;
-        i += usize::from(self.is(at, &["over"]) && self.is(i, &BEFORE_PART));
+        let noun = at + 1 + usize::from(self.is(at, &["over"]) && self.is(at + 1, &BEFORE_PART));
+        self.part_after(at, noun).or_else(|| self.side_of_room_past(at))
+    }
+
+    /// One past a part of the room or a wall whose article stands at `noun`, in a phrase that begins at `at`.
+    pub(super) fn part_after(&self, at: usize, noun: usize) -> Option<usize> {
+        let mut i = noun;
         i = self.skip(i, &[Role::Determiner, Role::Hearer, Role::Adverb]);
         let modifiers = i;
         while matches!(self.role(i), Some(Role::Part | Role::Side | Role::Adjective)) || self.is(i, &["opposite"]) {
@@ -238,8 +253,8 @@ impl Cursor<'_> {
             {
                 return Some(past);
             }
-        } else if !far || self.class(i).is_some() {
-            return self.side_of_room_past(at);
+        } else if !far || self.class(i).is_some() || modifiers == noun && at == noun {
+            return None;
         }
         // "at the end of the bed" is about the bed.
         if self.is(i, &["of", "in"])
@@ -247,7 +262,7 @@ impl Cursor<'_> {
         {
             return match self.class(noun.head) {
                 Some(Class::Room | Class::Wall | Class::Part) => Some(noun.past),
-                Some(class) if class.is_furniture() && self.is(i, &["of"]) => None,
+                Some(class) if (class.is_furniture() || class == Class::Object) && self.is(i, &["of"]) => None,
                 _ => Some(i),
             };
         }
@@ -307,7 +322,7 @@ impl Cursor<'_> {
     }
 
     /// One past "on it", "on top of it", "on top".
-    fn on_it_past(&self, at: usize) -> usize {
+    pub(super) fn on_it_past(&self, at: usize) -> usize {
         let top = at + 1 + usize::from(self.is(at + 1, &["top"])) + usize::from(self.is(at + 2, &["of"]));
         let on = self.is(at, &["on"]);
         if on && self.is(top, &["it", "them", "there"]) {
@@ -320,7 +335,9 @@ impl Cursor<'_> {
         let Some(class) = self.class(noun.head) else {
             // A landmark whose name is new: "next to the terrarium".
             let told = self.noun_has_article(noun.first, noun.head) || self.role(noun.first) == Some(Role::Number);
-            let beside = matches!(relation, Relation::Landmark(_)) && told;
+            // "A mug with a handle": what a thing has is no landmark, what stands on it is.
+            let part_of_it = self.is(noun.first - 1, &["with"]) && self.on_it_past(noun.past) == noun.past;
+            let beside = matches!(relation, Relation::Landmark(_)) && told && !part_of_it;
             return beside.then(|| Phrase::new(Kind::ObjectMark, first, noun.past, "by an unknown thing"));
         };
         let past = self.second_noun_past(noun.past, class);

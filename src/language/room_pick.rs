@@ -18,6 +18,8 @@ pub struct RoomPick {
     pub last: usize,
     /// Phrases elsewhere that say the same again.
     pub restated: Vec<usize>,
+    /// Doors passed or reached before the room is picked: they make nothing.
+    pub on_the_way: Vec<usize>,
 }
 
 impl RoomPick {
@@ -38,7 +40,9 @@ pub fn pick(phrases: &[Phrase], units: &[Unit]) -> Option<RoomPick> {
     let first = reader.first()?;
     let last = reader.last_of(first);
     let restated = reader.restated(first, last);
-    Some(RoomPick { first, last, restated })
+    let on_the_way =
+        (0..first).filter(|&i| reader.kind(i) == Some(Kind::Part) && reader.is_door(&phrases[i])).collect();
+    Some(RoomPick { first, last, restated, on_the_way })
 }
 
 struct Reader<'p> {
@@ -127,7 +131,7 @@ impl Reader<'_> {
         while let Some(next) = self.phrases.get(last + 1) {
             let room = next.kind == Kind::Room && self.side(last + 1).is_none_or(|side| Some(side) == self.side(first));
             let door = next.kind == Kind::Part
-                && self.kind(first) == Some(Kind::Turn)
+                && matches!(self.kind(first), Some(Kind::Turn | Kind::Side))
                 && self.phrases[last].past == next.first
                 && self.is_door(next);
             let own_side = last == first

@@ -43,7 +43,7 @@ pub fn build(phrases: &[Phrase], units: &[Unit], words: &[Word]) -> Vec<Chunk> {
             Some(ref pick) if i == pick.first => builder.add_room(pick, phrases),
             Some(ref pick) if pick.covers(i) => {}
             // Motions before the room is entered lead to it and make nothing of their own.
-            Some(ref pick) if i < pick.first && is_lead(phrase) => {}
+            Some(ref pick) if i < pick.first && (is_lead(phrase) || pick.on_the_way.contains(&i)) => {}
             Some(ref pick) if pick.restated.contains(&i) => builder.restate_room(phrase),
             _ => builder.add(phrase),
         }
@@ -86,6 +86,7 @@ impl Builder {
             }
             Kind::Room => self.attach(Node::new(Tag::Ormtp, phrase).with_child(Tag::Ormrp, phrase.inner)),
             Kind::Corrected => self.attach(Node::new(Tag::Conf, phrase)),
+            Kind::Perspective => self.attach(Node::new(Tag::Pers, phrase)),
             Kind::Correction => {}
         }
     }
