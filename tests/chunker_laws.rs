@@ -69,7 +69,7 @@ fn tags(text: &str) -> Vec<Tag> {
 
 #[test]
 fn a_sentence_of_where_is_one_clause_about_the_object() {
-    let text = "the cellphone is in the living room on the right on the table to the right side behind the couch";
+    let text = "my cellphone lies in the living room on your right, on the table to the right side in back of the sofa";
     assert_eq!(tags(text), [Tag::Obtp, Tag::Ormtp, Tag::Ormrp, Tag::Furtp, Tag::Irmrp, Tag::Furrp]);
 }
 

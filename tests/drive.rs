@@ -39,7 +39,7 @@ fn a_wrong_relation_is_mended_by_looking_elsewhere() {
 
 #[test]
 fn an_object_that_is_not_there_is_not_found_and_the_record_says_why() {
-    let ran = run("drive", &[], planned("the umbrella is in the bedroom on the table")).expect_code(0);
+    let ran = run("drive", &[], planned("find the umbrella on a table in the bedroom")).expect_code(0);
     let trial = &ran.records()[0]["trial"];
     assert_eq!(trial["outcome"], "not_found");
     assert!(trial["why"].as_str().is_some_and(|why| why.contains("no umbrella")), "{trial}");
@@ -50,7 +50,7 @@ fn every_action_says_why() {
     let ran = run(
         "drive",
         &["--no-glance", "--format", "text"],
-        planned("the statue is in the bedroom on the left on the nightstand to the right of the bed"),
+        planned("my statue stands on the nightstand to the right of the bed in the bedroom on your left"),
     );
     let text = ran.expect_code(0).out;
     assert!(text.contains("before") && text.contains("found: the statue is on"), "{text}");

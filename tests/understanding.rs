@@ -31,8 +31,8 @@ fn object(grounding: &Grounding) -> Option<&str> {
 }
 
 #[test]
-fn the_papers_figure_2_has_one_node_with_two_pairs() {
-    let text = "the cellphone is in the living room on the right on the table to the right side behind the couch";
+fn a_sentence_like_the_papers_figure_2_has_one_node_with_two_pairs() {
+    let text = "my cellphone lies in the living room on your right, on the table to the right side in back of the sofa";
     let meaning = ground(text);
     assert_eq!(meaning.nodes.len(), 1);
     assert_eq!(pairs(&meaning), [pair("robot", "right"), pair("couch", "back")]);

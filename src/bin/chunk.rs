@@ -16,7 +16,7 @@ use spatial_fetch::record::{Chunk, Token};
 #[command(
     name = "chunk",
     version,
-    after_help = "Example:\n  echo 'the mug is in the bedroom on the table' | chunk --format text"
+    after_help = "Example:\n  echo 'my mug is on the table by the chairs in the bedroom' | chunk --format text"
 )]
 struct Arguments {
     /// Name the rule behind each chunk

@@ -14,7 +14,7 @@ use spatial_fetch::record::Grounding;
 #[command(
     name = "ground",
     version,
-    after_help = "Example:\n  echo 'the mug is in the bedroom on the table' | chunk | ground --format text"
+    after_help = "Example:\n  echo 'my mug is on the table by the chairs in the bedroom' | chunk | ground --format text"
 )]
 struct Arguments {
     #[command(flatten)]

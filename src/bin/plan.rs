@@ -16,7 +16,7 @@ use spatial_fetch::world::RoomMap;
 #[command(
     name = "plan",
     version,
-    after_help = "Example:\n  echo 'the mug is in the bedroom on the table' | chunk | ground | plan --format text"
+    after_help = "Example:\n  echo 'my mug is on the table by the chairs in the bedroom' | chunk | ground | plan --format text"
 )]
 struct Arguments {
     /// Room map [default: the apartment]
