@@ -1,6 +1,6 @@
 //! A relative position in one English sentence.
 
-use super::Degree;
+use super::DegreeOfTruth;
 
 /// Names of the four directions in the order right, above, left, below.
 pub const NAMES: [&str; 4] = ["to the right of", "above", "to the left of", "below"];
@@ -14,7 +14,7 @@ const HEDGES: [(f64, &str); 4] = [(0.95, "perfectly "), (0.85, ""), (0.6, "mostl
 const SECOND_HEDGES: [(f64, &str); 3] = [(0.35, " and also "), (0.2, " but somewhat "), (0.08, " but slightly ")];
 
 /// Says where `a` is relative to `b`, from the degrees of right, above, left and below and how far a surrounds b.
-pub fn describe(a: &str, b: &str, degrees: [Degree; 4], surround: f64, distance: f64) -> String {
+pub fn describe(a: &str, b: &str, degrees: [DegreeOfTruth; 4], surround: f64, distance: f64) -> String {
     if surround > 0.6 {
         return format!("{a} surrounds {b}.");
     }
@@ -35,7 +35,7 @@ pub fn describe(a: &str, b: &str, degrees: [Degree; 4], surround: f64, distance:
 }
 
 /// How well the words do justice to the histogram: by the share of forces that are effective.
-fn assessment(degree: Degree) -> &'static str {
+fn assessment(degree: DegreeOfTruth) -> &'static str {
     match degree.b {
         b if b >= 0.7 => "satisfactory",
         b if b >= 0.4 => "rather satisfactory",
@@ -47,8 +47,8 @@ fn assessment(degree: Degree) -> &'static str {
 mod tests {
     use super::*;
 
-    fn degrees(values: [f64; 4]) -> [Degree; 4] {
-        values.map(|a| Degree { a, b: a.max(0.8) })
+    fn degrees(values: [f64; 4]) -> [DegreeOfTruth; 4] {
+        values.map(|a| DegreeOfTruth { a, b: a.max(0.8) })
     }
 
     #[test]

@@ -22,16 +22,22 @@
 
 mod degree;
 mod describe;
+mod gap;
+mod histogram;
 mod kernel;
+mod main_direction;
 pub mod polygon;
 mod relation;
 mod shape;
 mod stage;
+mod surround;
 
-pub use degree::{Degree, degree_of_truth, main_direction};
+pub use degree::{DegreeOfTruth, degree_of_truth};
 pub use describe::describe;
+pub use histogram::Histogram;
 pub use kernel::{Force, Infinite};
-pub use polygon::Histogram;
-pub use relation::{Relation, between};
+pub use main_direction::main_direction;
+pub use relation::Relation;
 pub use shape::{Shape, ShapeError};
 pub use stage::{Describer, ForceName};
+pub use surround::{between, surround};

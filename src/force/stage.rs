@@ -7,12 +7,9 @@ use std::str::FromStr;
 
 use serde::Deserialize;
 
-use super::polygon::{histogram, histogram_from, hybrid};
-use super::{Degree, Force, Relation, Shape, degree_of_truth, describe};
+use super::polygon::{histograms, hybrid};
+use super::{DegreeOfTruth as Degree, Force, Relation, Shape, describe};
 use crate::record::{DegreeOfTruth, Hof, HofForce, Note, Record, Stage, StageError};
-
-/// Directions of the histograms behind the degrees: two degrees each.
-const DEGREE_DIRECTIONS: usize = 180;
 
 /// A force as the user names it: a number r, or `hybrid`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,18 +77,17 @@ impl Describer {
 
     fn measure(&self, a: &Shape, b: &Shape) -> Hof {
         let near = hybrid(a, b);
-        let values = |name: &ForceName| {
-            let force = if let ForceName::Power(r) = name { Force::Power(*r) } else { near };
-            match histogram(a, b, force, self.directions) {
-                Ok(histogram) => HofForce::Values(histogram.values().to_vec()),
-                Err(_) => HofForce::Infinite("infinite".to_string()),
-            }
-        };
+        let force = |name: &ForceName| if let ForceName::Power(r) = name { Force::Power(*r) } else { near };
+        let forces: Vec<Force> = self.forces.iter().map(force).collect();
+        let values = histograms(a, b, &forces, self.directions).into_iter().map(|h| match h {
+            Ok(histogram) => HofForce::Values(histogram.values().to_vec()),
+            Err(_) => HofForce::Infinite("infinite".to_string()),
+        });
         let relation = Relation::between(a, b);
-        let degrees = [0, 1, 2, 3].map(|quarter| degree(a, b, near, f64::from(quarter) * FRAC_PI_2));
+        let degrees = relation.degrees([0.0, 1.0, 2.0, 3.0].map(|quarter| quarter * FRAC_PI_2));
         Hof {
             directions: self.directions,
-            forces: self.forces.iter().map(|name| (name.to_string(), values(name))).collect(),
+            forces: self.forces.iter().map(ToString::to_string).zip(values).collect(),
             degrees: named(degrees),
             main_deg: relation.main_direction().map(f64::to_degrees),
             distance_m: relation.distance(),
@@ -107,13 +103,6 @@ fn in_plane(ring: &[Vec<f64>], key: &str) -> Result<Vec<[f64; 2]>, StageError> {
             _ => Err(StageError::new(format!("`{key}`: a position needs two numbers"))),
         })
         .collect()
-}
-
-fn degree(a: &Shape, b: &Shape, near: Force, angle: f64) -> Degree {
-    let degrees = [Force::Power(0.0), near].map(|force| {
-        histogram_from(a, b, force, DEGREE_DIRECTIONS, angle).map_or(Degree::default(), |h| degree_of_truth(&h, 0))
-    });
-    Degree { a: (degrees[0].a + degrees[1].a) / 2.0, b: degrees[0].b.min(degrees[1].b) }
 }
 
 fn named(degrees: [Degree; 4]) -> BTreeMap<String, DegreeOfTruth> {

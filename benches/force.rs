@@ -1,0 +1,94 @@
+//! What the histogram of forces costs. Run on a quiet core: `cargo bench --bench force`; the fastest sample counts.
+//!
+//! The first group are the scenes for which the published implementation was timed (docs/force.md); the others show
+//! how the cost grows with vertices, cells and directions.
+
+use std::f64::consts::TAU;
+
+use divan::{Bencher, black_box};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use spatial_fetch::force::{Force, Relation, Shape, degree_of_truth, polygon};
+
+const BOTH: [Force; 2] = [Force::Power(0.0), Force::Power(2.0)];
+
+fn main() {
+    divan::main();
+}
+
+/// A regular polygon.
+fn convex(corners: usize, x: f64, y: f64, radius: f64) -> Shape {
+    let corner = |i: usize| {
+        let angle = TAU * i as f64 / corners as f64;
+        [x + radius * angle.cos(), y + radius * angle.sin()]
+    };
+    Shape::from_ring((0..corners).map(corner).collect())
+}
+
+/// A star-shaped polygon whose radius varies by up to 40 %.
+fn star(corners: usize, x: f64, y: f64, radius: f64, seed: u64) -> Shape {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let corner = |i: usize| {
+        let angle = TAU * i as f64 / corners as f64;
+        let radius = radius * (1.0 - 0.4 * f64::from(random.next_u32()) / f64::from(u32::MAX));
+        [x + radius * angle.cos(), y + radius * angle.sin()]
+    };
+    Shape::from_ring((0..corners).map(corner).collect())
+}
+
+fn rectangles() -> (Shape, Shape) {
+    let rectangle =
+        |x: f64, y: f64, w: f64, h: f64| Shape::from_ring(vec![[x, y], [x + w, y], [x + w, y + h], [x, y + h]]);
+    (rectangle(2.0, 1.5, 1.2, 0.6), rectangle(0.0, 0.0, 2.0, 0.9))
+}
+
+mod polygons {
+    use super::*;
+
+    #[divan::bench(args = [16, 180, 360])]
+    fn convex_of_100(bencher: Bencher, directions: usize) {
+        let (a, b) = (convex(100, 250.0, 60.0, 100.0), convex(100, 0.0, 0.0, 100.0));
+        bencher.bench(|| polygon::histograms(black_box(&a), black_box(&b), &BOTH, directions));
+    }
+
+    #[divan::bench(args = [16, 180, 360])]
+    fn stars_of_1000(bencher: Bencher, directions: usize) {
+        let (a, b) = (star(1000, 250.0, 60.0, 100.0, 1), star(1000, 0.0, 0.0, 100.0, 2));
+        bencher.bench(|| polygon::histograms(black_box(&a), black_box(&b), &BOTH, directions));
+    }
+
+    #[divan::bench]
+    fn rectangles_16_directions_and_degrees(bencher: Bencher) {
+        let (a, b) = rectangles();
+        bencher.bench(|| {
+            let histograms = polygon::histograms(black_box(&a), black_box(&b), &BOTH, 16);
+            let of = |histogram| [0.0, 0.25, 0.5, 0.75].map(|turn| degree_of_truth(histogram, turn * TAU));
+            (histograms[0].as_ref().map(of).ok(), histograms[1].as_ref().map(of).ok())
+        });
+    }
+
+    #[divan::bench]
+    fn rectangles_as_a_relation(bencher: Bencher) {
+        let (a, b) = rectangles();
+        bencher.bench(|| Relation::between(black_box(&a), black_box(&b)).degrees([0.0, 1.0, 2.0, 3.0]));
+    }
+
+    #[divan::bench]
+    fn main_direction_of_360(bencher: Bencher) {
+        let (a, b) = rectangles();
+        let histogram = polygon::histogram(&a, &b, Force::Power(2.0), 360).expect("apart");
+        bencher.bench(|| spatial_fetch::force::main_direction(black_box(&histogram)));
+    }
+
+    #[divan::bench(args = [4, 10, 30, 100, 300, 1000, 3000])]
+    fn convex_by_corners(bencher: Bencher, corners: usize) {
+        let (a, b) = (convex(corners, 250.0, 60.0, 100.0), convex(corners, 0.0, 0.0, 100.0));
+        bencher.bench(|| polygon::histograms(black_box(&a), black_box(&b), &BOTH, 180));
+    }
+
+    #[divan::bench(args = [4, 10, 30, 100, 300, 1000, 3000])]
+    fn stars_by_corners(bencher: Bencher, corners: usize) {
+        let (a, b) = (star(corners, 250.0, 60.0, 100.0, 1), star(corners, 0.0, 0.0, 100.0, 2));
+        bencher.bench(|| polygon::histograms(black_box(&a), black_box(&b), &BOTH, 180));
+    }
+}
