@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 use divan::{Bencher, black_box};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use spatial_fetch::force::raster::{Fuzzy, Pair, Raster};
 use spatial_fetch::force::{Force, Relation, Shape, degree_of_truth, polygon};
 
 const BOTH: [Force; 2] = [Force::Power(0.0), Force::Power(2.0)];
@@ -90,5 +91,82 @@ mod polygons {
     fn stars_by_corners(bencher: Bencher, corners: usize) {
         let (a, b) = (star(corners, 250.0, 60.0, 100.0, 1), star(corners, 0.0, 0.0, 100.0, 2));
         bencher.bench(|| polygon::histograms(black_box(&a), black_box(&b), &BOTH, 180));
+    }
+}
+
+/// A disk of a quarter of the image's side, low on the left.
+fn disk(size: usize) -> Raster {
+    let (radius, x, y) = (size as f64 / 8.0, size as f64 * 0.25, size as f64 * 0.7);
+    raster(size, |column, row| (column - x).hypot(row - y) <= radius)
+}
+
+/// A U, open at the top, right of the disk.
+fn open_box(size: usize) -> Raster {
+    let s = size as f64;
+    raster(size, |x, y| {
+        let within = x >= 0.5 * s && x < 0.9 * s && y >= 0.15 * s && y < 0.6 * s;
+        within && !(x >= 0.6 * s && x < 0.8 * s && y < 0.45 * s)
+    })
+}
+
+/// A square of checkers, each a 32nd of the image's side.
+fn checkers(size: usize, left: f64, top: f64) -> Raster {
+    let (s, period) = (size as f64, size as f64 / 32.0);
+    raster(size, |x, y| {
+        let within = x >= left * s && x < (left + 0.4) * s && y >= top * s && y < (top + 0.4) * s;
+        within && ((x / period) as usize + (y / period) as usize).is_multiple_of(2)
+    })
+}
+
+fn raster(size: usize, inside: impl Fn(f64, f64) -> bool) -> Raster {
+    let cell = |i: usize| u8::from(inside((i % size) as f64 + 0.5, (i / size) as f64 + 0.5));
+    Raster::from_levels(size, size, (0..size * size).map(cell).collect(), 1, 1.0).expect("a raster")
+}
+
+mod rasters {
+    use super::*;
+
+    fn both(a: &Raster, b: &Raster, directions: usize) -> usize {
+        let pair = Pair::new(black_box(a), black_box(b), Fuzzy::Product).expect("one grid");
+        pair.histograms(&BOTH, directions).len()
+    }
+
+    #[divan::bench(args = [16, 180, 360])]
+    fn disk_and_u_of_256(bencher: Bencher, directions: usize) {
+        let (a, b) = (disk(256), open_box(256));
+        bencher.bench(|| both(&a, &b, directions));
+    }
+
+    #[divan::bench(args = [16, 180, 360])]
+    fn checkers_of_512(bencher: Bencher, directions: usize) {
+        let (a, b) = (checkers(512, 0.05, 0.5), checkers(512, 0.55, 0.05));
+        bencher.bench(|| both(&a, &b, directions));
+    }
+
+    #[divan::bench(args = [64, 128, 256, 512, 1024, 2048])]
+    fn disk_and_u_by_side(bencher: Bencher, size: usize) {
+        let (a, b) = (disk(size), open_box(size));
+        bencher.bench(|| both(&a, &b, 180));
+    }
+
+    #[divan::bench(args = [128, 256, 512])]
+    fn noise_by_side(bencher: Bencher, size: usize) {
+        let noise = |seed: u64, left: f64| {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let limit = left * size as f64;
+            let mut level = |i: usize| {
+                let x = (i % size) as f64;
+                if x >= limit && x < limit + 0.45 * size as f64 { (random.next_u32() >> 24) as u8 } else { 0 }
+            };
+            Raster::from_levels(size, size, (0..size * size).map(&mut level).collect(), 255, 1.0).expect("a raster")
+        };
+        let (a, b) = (noise(1, 0.0), noise(2, 0.5));
+        bencher.bench(|| both(&a, &b, 180));
+    }
+
+    #[divan::bench(args = [16, 45, 90, 180, 360, 720, 1440])]
+    fn disk_and_u_by_directions(bencher: Bencher, directions: usize) {
+        let (a, b) = (disk(256), open_box(256));
+        bencher.bench(|| both(&a, &b, directions));
     }
 }

@@ -154,7 +154,8 @@ mod tests {
 
     #[test]
     fn a_number_of_directions_that_four_does_not_divide_is_resampled() {
-        let wide = |k: usize| Histogram::from_values((0..k).map(|i| (TAU * i as f64 / k as f64).cos().max(0.0)).collect());
+        let wide =
+            |k: usize| Histogram::from_values((0..k).map(|i| (TAU * i as f64 / k as f64).cos().max(0.0)).collect());
         let (odd, even) = (degree_of_truth(&wide(361), 0.3), degree_of_truth(&wide(360), 0.3));
         assert!((odd.a - even.a).abs() < 1e-2 && (odd.b - even.b).abs() < 1e-2, "{odd:?} {even:?}");
     }

@@ -32,7 +32,9 @@ impl Shape {
         let near: Vec<(Edge, Bounds)> =
             other.edges().map(|e| (e, bounds_of(e))).filter(|(_, bounds)| boxes_meet(*bounds, own)).collect();
         let borders = self.edges().map(|e| (e, bounds_of(e))).filter(|(_, bounds)| boxes_meet(*bounds, others)).any(
-            |((a, b), bounds)| near.iter().any(|((c, d), box_)| boxes_meet(bounds, *box_) && segments_touch(a, b, *c, *d)),
+            |((a, b), bounds)| {
+                near.iter().any(|((c, d), box_)| boxes_meet(bounds, *box_) && segments_touch(a, b, *c, *d))
+            },
         );
         let inside = |a: &Self, b: &Self| a.rings().iter().any(|ring| ring.first().is_some_and(|&c| b.contains(c)));
         borders || inside(self, other) || inside(other, self)

@@ -27,6 +27,7 @@ mod histogram;
 mod kernel;
 mod main_direction;
 pub mod polygon;
+pub mod raster;
 mod relation;
 mod shape;
 mod stage;

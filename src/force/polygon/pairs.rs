@@ -70,7 +70,11 @@ impl Pairs {
     pub(super) fn sum_of_logarithms(&mut self, about: f64, far: bool) -> f64 {
         let end = self.padded();
         let (first, last, weight) = (&self.first[..end], &self.last[..end], &self.weight[..end]);
-        if far { sum_of_far_logarithms(first, last, weight, about) } else { sum_of_logarithms(first, last, weight, about) }
+        if far {
+            sum_of_far_logarithms(first, last, weight, about)
+        } else {
+            sum_of_logarithms(first, last, weight, about)
+        }
     }
 
     /// Σ w · mean of g.
@@ -152,7 +156,8 @@ fn sum_of_far_logarithms(first: &[f64], last: &[f64], weight: &[f64], about: f64
 fn steep(first: f64, last: f64, slope: f64) -> f64 {
     let (l0, l1) = (logarithm(first), logarithm(last));
     let square = slope * slope;
-    let gentle = square * (1.0 / 3.0 + square * (0.2 + square * (1.0 / 7.0 + square * (1.0 / 9.0 + square * SERIES_END))));
+    let gentle =
+        square * (1.0 / 3.0 + square * (0.2 + square * (1.0 / 7.0 + square * (1.0 / 9.0 + square * SERIES_END))));
     let divisor = if slope.abs() > GENTLE { 2.0 * slope } else { 1.0 };
     let exact = (l1 - l0) / divisor - 1.0;
     let beyond = if slope.abs() > GENTLE { exact } else { gentle };

@@ -136,20 +136,28 @@ impl Sweep {
         let (mut rest_a, mut rest_b) = (a.sides.as_slice(), b.sides.as_slice());
         while let (Some(side_a), Some(side_b)) = (rest_a.first(), rest_b.first()) {
             if side_a.from <= side_b.from {
-                meet(side_a, &mut self.of_b, |own, other, last_own, last_other, w| pair(own - other, last_own - last_other, w));
+                meet(side_a, &mut self.of_b, |own, other, last_own, last_other, w| {
+                    pair(own - other, last_own - last_other, w)
+                });
                 self.of_a.push(*side_a);
                 rest_a = &rest_a[1..];
             } else {
-                meet(side_b, &mut self.of_a, |own, other, last_own, last_other, w| pair(other - own, last_other - last_own, w));
+                meet(side_b, &mut self.of_a, |own, other, last_own, last_other, w| {
+                    pair(other - own, last_other - last_own, w)
+                });
                 self.of_b.push(*side_b);
                 rest_b = &rest_b[1..];
             }
         }
         for side_a in rest_a {
-            meet(side_a, &mut self.of_b, |own, other, last_own, last_other, w| pair(own - other, last_own - last_other, w));
+            meet(side_a, &mut self.of_b, |own, other, last_own, last_other, w| {
+                pair(own - other, last_own - last_other, w)
+            });
         }
         for side_b in rest_b {
-            meet(side_b, &mut self.of_a, |own, other, last_own, last_other, w| pair(other - own, last_other - last_own, w));
+            meet(side_b, &mut self.of_a, |own, other, last_own, last_other, w| {
+                pair(other - own, last_other - last_own, w)
+            });
         }
     }
 }
@@ -167,7 +175,13 @@ fn meet(side: &Side, active: &mut Vec<Side>, mut pair: impl FnMut(f64, f64, f64,
         i += 1;
         let width = side.to.min(other.to) - side.from;
         let along = other.along + other.slope * (side.from - other.from);
-        pair(side.along, along, side.along + side.slope * width, along + other.slope * width, side.sign * other.sign * width);
+        pair(
+            side.along,
+            along,
+            side.along + side.slope * width,
+            along + other.slope * width,
+            side.sign * other.sign * width,
+        );
     }
 }
 

@@ -57,8 +57,7 @@ fn a_hole_exerts_no_force() {
     let whole = rectangle((0.0, 3.0), (0.0, 3.0));
     let hole = rectangle((1.0, 2.0), (1.0, 2.0));
     for degrees in [0, 7, 20] {
-        let difference =
-            value(&whole, &b, Force::Power(2.0), degrees) - value(&hole, &b, Force::Power(2.0), degrees);
+        let difference = value(&whole, &b, Force::Power(2.0), degrees) - value(&hole, &b, Force::Power(2.0), degrees);
         assert_near(value(&frame, &b, Force::Power(2.0), degrees), difference);
     }
 }
