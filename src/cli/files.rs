@@ -20,3 +20,11 @@ pub fn write_file(path: &Path, bytes: &[u8], force: bool) -> Result<(), Failure>
     temporary.write_all(bytes).map_err(|e| named(&e))?;
     output::persist(temporary, path, force)
 }
+
+/// Writes a record's picture to `FOLDER/ID.svg`; letters of the id that may not stand in a file name become `_`.
+pub fn save_picture(folder: &Path, id: &str, svg: &str, force: bool) -> Result<(), String> {
+    let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
+    let name: String = id.chars().map(plain).collect();
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    write_file(&folder.join(format!("{name}.svg")), svg.as_bytes(), force).map_err(|error| error.to_string())
+}

@@ -18,7 +18,7 @@ mod progress;
 pub use arguments::{ColorChoice, Common, Format};
 pub use diagnostic::{Diagnostic, Reporter};
 pub use exit::{Exit, Failure};
-pub use files::{read_file, write_file};
+pub use files::{read_file, save_picture, write_file};
 pub use filter::{Intake, run_filter};
 pub use input::{Inputs, Line};
 pub use interrupt::on_interrupt;

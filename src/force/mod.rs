@@ -22,23 +22,32 @@
 
 mod degree;
 mod describe;
+mod frame;
 mod gap;
 mod histogram;
+mod input;
 mod kernel;
 mod main_direction;
+mod mask;
+mod name;
 pub mod polygon;
 pub mod raster;
 mod relation;
+mod rose;
 mod shape;
 mod stage;
 mod surround;
+mod wording;
 
 pub use degree::{DegreeOfTruth, degree_of_truth};
-pub use describe::describe;
+pub use describe::Description;
+pub use frame::{Frame, Words};
 pub use histogram::Histogram;
 pub use kernel::{Force, Infinite};
 pub use main_direction::main_direction;
+pub use name::{ForceName, FrameName};
 pub use relation::Relation;
 pub use shape::{Shape, ShapeError};
-pub use stage::{Describer, ForceName};
+pub use stage::{Describer, Picture};
 pub use surround::{between, surround};
+pub use wording::{Assessment, Closeness};

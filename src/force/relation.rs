@@ -2,11 +2,13 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::degree::Judge;
+use super::degree::{Judge, degree_of_truth};
 use super::main_direction::main_direction;
 use super::polygon::{finite_histograms, hybrid, intersection_area};
+use super::raster::{Pair, Raster};
 use super::surround::surround;
 use super::{DegreeOfTruth, Force, Histogram, Shape};
+use crate::geometry::Vec2;
 
 /// Least number of directions.
 const DIRECTIONS: usize = 16;
@@ -48,13 +50,27 @@ impl Relation {
         };
         let mut histograms = finite_histograms(a, b, &[Force::Power(0.0), near], directions);
         if histograms[0].peak() <= 0.0 {
-            histograms.fill(towards_centre(a, b));
+            histograms.fill(towards(a.centroid() - b.centroid()));
         }
         let hybrid = histograms.pop().unwrap_or_else(|| Histogram::from_values(Vec::new()));
         let constant = histograms.pop().unwrap_or_else(|| hybrid.clone());
         let shared_area = if distance > 0.0 { 0.0 } else { intersection_area(a, b) };
         let areas = (a.area(), b.area());
         Self { constant, hybrid, distance, shared_area, areas, diameters: (diameter(a), diameter(b)) }
+    }
+
+    /// The relation of two rasters, `a` to `b`, by their correlation.
+    pub fn between_rasters(a: &Raster, b: &Raster, pair: &Pair) -> Self {
+        let (diameters, apart) = ((a.diameter(), b.diameter()), a.offset_from(b));
+        let directions = directions_for_sizes(diameters.0 + diameters.1, apart.norm());
+        let mut histograms = pair.finite_histograms(&[Force::Power(0.0), pair.hybrid()], directions);
+        if histograms[0].peak() <= 0.0 {
+            histograms.fill(towards(apart));
+        }
+        let hybrid = histograms.pop().unwrap_or_else(|| Histogram::from_values(Vec::new()));
+        let constant = histograms.pop().unwrap_or_else(|| hybrid.clone());
+        let (shared_area, distance) = (pair.shared_area(), pair.distance());
+        Self { constant, hybrid, distance, shared_area, areas: (a.area(), b.area()), diameters }
     }
 
     /// The histogram of constant forces, F0.
@@ -71,6 +87,11 @@ impl Relation {
     /// lesser of what the two allow. (How opinions merge is left open by the literature.)
     pub fn degree(&self, theta: f64) -> DegreeOfTruth {
         self.degrees([theta])[0]
+    }
+
+    /// What constant and hybrid forces each think of "a is in direction `theta` of b", radians.
+    pub fn opinions(&self, theta: f64) -> [DegreeOfTruth; 2] {
+        [&self.constant, &self.hybrid].map(|histogram| degree_of_truth(histogram, theta))
     }
 
     /// The degrees of several directions at once.
@@ -132,16 +153,20 @@ fn diameter(shape: &Shape) -> f64 {
 /// Enough directions for the angle under which the two see each other.
 fn directions_for(a: &Shape, b: &Shape) -> usize {
     let ((a_low, a_high), (b_low, b_high)) = (a.bounds(), b.bounds());
-    let reach = ((a_high - a_low).norm() + (b_high - b_low).norm()) / 2.0;
-    let apart = ((a_low + a_high) - (b_low + b_high)).norm() / 2.0;
+    let reach = (a_high - a_low).norm() + (b_high - b_low).norm();
+    directions_for_sizes(reach, ((a_low + a_high) - (b_low + b_high)).norm() / 2.0)
+}
+
+/// Enough directions for two objects of the given diameters together, whose centres are `apart`.
+fn directions_for_sizes(diameters: f64, apart: f64) -> usize {
+    let reach = diameters / 2.0;
     let angle = if reach < apart { 2.0 * (reach / apart).asin() } else { PI };
     let wanted = (TAU / angle * BINS_WITH_FORCE) as usize;
     wanted.clamp(DIRECTIONS, MOST_DIRECTIONS).next_power_of_two()
 }
 
-/// The histogram of two points: all force in the direction nearest to the line from b to a.
-fn towards_centre(a: &Shape, b: &Shape) -> Histogram {
-    let way = a.centroid() - b.centroid();
+/// The histogram of two points: all force in the direction nearest to the way from b to a.
+fn towards(way: Vec2) -> Histogram {
     let bin = (way.y.atan2(way.x).rem_euclid(TAU) / TAU * MOST_DIRECTIONS as f64).round() as usize;
     let mut values = vec![0.0; MOST_DIRECTIONS];
     values[bin % MOST_DIRECTIONS] = 1.0;

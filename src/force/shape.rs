@@ -112,13 +112,11 @@ fn checked(ring: &[[f64; 2]], number: usize) -> Result<Vec<Vec2>, ShapeError> {
     if corners.len() < 3 {
         return Err(ShapeError::TooFewCorners(number));
     }
-    if signed_area(&corners) == 0.0 {
-        return Err(ShapeError::NoArea(number));
+    // Before the area, which is zero for a bow tie too.
+    if let Some((i, j)) = crossing(&corners) {
+        return Err(ShapeError::SelfCrossing(number, i + 1, j + 1));
     }
-    match crossing(&corners) {
-        Some((i, j)) => Err(ShapeError::SelfCrossing(number, i + 1, j + 1)),
-        None => Ok(corners),
-    }
+    if signed_area(&corners) == 0.0 { Err(ShapeError::NoArea(number)) } else { Ok(corners) }
 }
 
 /// Two edges of a ring that cross properly, the lower numbers first.

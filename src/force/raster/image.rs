@@ -1,5 +1,7 @@
 //! A raster object: cells with membership.
 
+use crate::geometry::{Vec2, vec2};
+
 /// The most cells of one raster: 4096 × 4096. Beyond that the correlation would not fit a usual memory.
 pub const MOST_CELLS: usize = 1 << 24;
 
@@ -138,18 +140,31 @@ impl Raster {
         levels as f64 / f64::from(self.full) * self.cell * self.cell
     }
 
-    /// The centre of mass in metres from the lower left corner of the grid, y up.
-    pub fn centroid(&self) -> (f64, f64) {
-        let (mut x, mut y, mut mass) = (0.0, 0.0, 0.0);
+    /// The diagonal of the box around all cells with membership, metres.
+    pub fn diameter(&self) -> f64 {
+        let (low, high) = self.bounds();
+        (high - low).norm()
+    }
+
+    /// The way from the middle of another raster's bounds to the middle of this one's, metres.
+    pub(in crate::force) fn offset_from(&self, other: &Self) -> Vec2 {
+        let (own, others) = (self.bounds(), other.bounds());
+        ((own.0 + own.1) - (others.0 + others.1)) / 2.0
+    }
+
+    /// The lowest and highest x and y of cells with membership, metres from the grid's lower left corner.
+    pub fn bounds(&self) -> (Vec2, Vec2) {
+        let (mut low, mut high) = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
         for (row, cells) in self.rows().enumerate() {
-            for (column, level) in cells.iter().enumerate().filter(|(_, level)| **level > 0) {
-                let weight = f64::from(*level);
-                x += weight * (column as f64 + 0.5);
-                y += weight * ((self.height - row) as f64 - 0.5);
-                mass += weight;
-            }
+            let inside = |level: &u8| *level > 0;
+            let (Some(first), Some(last)) = (cells.iter().position(inside), cells.iter().rposition(inside)) else {
+                continue;
+            };
+            let below = (self.height - row - 1) as f64;
+            low = low.inf(&vec2(first as f64, below));
+            high = high.sup(&vec2(last as f64 + 1.0, below + 1.0));
         }
-        (x / mass * self.cell, y / mass * self.cell)
+        (low * self.cell, high * self.cell)
     }
 
     /// The membership of a cell, 0 to 1; zero outside the grid.
@@ -166,7 +181,7 @@ impl Raster {
         &self.levels
     }
 
-    pub(super) fn rows(&self) -> impl Iterator<Item = &[u8]> {
+    pub(in crate::force) fn rows(&self) -> impl Iterator<Item = &[u8]> {
         self.levels.chunks_exact(self.width)
     }
 
@@ -226,9 +241,9 @@ mod tests {
     }
 
     #[test]
-    fn the_centroid_is_measured_from_the_lower_left() {
+    fn bounds_are_measured_from_the_lower_left() {
         let raster = Raster::from_rows(&["..#", "...", "..."], 0.5).expect("a grid");
-        assert_eq!(raster.centroid(), (1.25, 1.25));
+        assert_eq!(raster.bounds(), (vec2(1.0, 1.0), vec2(1.5, 1.5)));
         assert_eq!(raster.area(), 0.25);
     }
 }
