@@ -9,28 +9,50 @@ use crate::geometry::{ClearanceGrid, Pose, Vec2, vec2, wrap_angle};
 
 /// Directions tried round the furniture.
 const DIRECTIONS: usize = 16;
-/// From the furniture's edge to the robot's centre: nearer, a low top leaves the picture; farther, small things blur.
-const NEAREST_M: f64 = 0.55;
-const FARTHEST_M: f64 = 1.25;
+/// From the furniture's edge to the robot's centre at least, metres.
+const FROM_EDGE_M: f64 = 0.5;
+/// From the furniture's middle to the camera at least: nearer, what lies on a low top leaves the picture below.
+const FROM_MIDDLE_M: f64 = 1.15;
+/// How much farther than that is still good: beyond, small things blur.
+const SLACK_M: f64 = 0.6;
+/// From a small object to the camera, where it is best seen.
+const BEST_VIEW_M: f64 = 1.25;
 /// Furniture longer than this may hide an object at its far end, so it is looked at from both sides.
 const LONG_M: f64 = 1.2;
 
+/// Nothing is seen through a wall: a line of sight keeps this clear of them, metres.
+const SIGHT_M: f64 = 0.06;
+
 /// Poses from which to look at `furniture`, the cheapest to reach first; for long furniture also one from across.
-pub fn viewpoints(grid: &ClearanceGrid, from: Vec2, furniture: &Furniture) -> Vec<Pose> {
+///
+/// `rooms` is the grid of the rooms alone, `grid` has all known furniture as well.
+pub fn viewpoints(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, furniture: &Furniture) -> Vec<Pose> {
     let centre = furniture.centre();
     let mut places: Vec<(f64, Vec2)> = (0..DIRECTIONS)
         .filter_map(|i| free_place(grid, furniture, TAU * i as f64 / DIRECTIONS as f64))
+        .filter(|&point| rooms.clearance_along(point, centre) >= SIGHT_M)
         .map(|point| ((point - from).norm() + 0.5 * (point - centre).norm(), point))
         .collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     let Some(first) = cheapest(grid, from, &places) else { return Vec::new() };
     let mut poses = vec![facing(first, centre)];
     if furniture.detection.length.max(furniture.detection.width) > LONG_M {
-        let across = |point: &Vec2| crate::geometry::angle_between(bearing(centre, *point), bearing(centre, first)) > PI / 2.0;
+        let across =
+            |point: &Vec2| crate::geometry::angle_between(bearing(centre, *point), bearing(centre, first)) > PI / 2.0;
         let others: Vec<(f64, Vec2)> = places.into_iter().filter(|(_, point)| across(point)).collect();
         poses.extend(cheapest(grid, first, &others).map(|point| facing(point, centre)));
     }
     poses
+}
+
+/// A pose from which an object at `point` is well seen: at the best distance, on the side where the robot is.
+pub fn better_view(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, point: Vec2) -> Option<Pose> {
+    let toward = bearing(point, from);
+    let turns = [0.0, 0.3, -0.3, 0.6, -0.6, 1.0, -1.0];
+    let place = |turn: &f64| point + vec2((toward + turn).cos(), (toward + turn).sin()) * BEST_VIEW_M;
+    let free =
+        |place: &Vec2| grid.clearance(grid.cell(*place)) >= SWING_M && rooms.clearance_along(*place, point) >= SIGHT_M;
+    turns.iter().map(place).find(free).map(|place| facing(place, point))
 }
 
 /// The nearest free place to the furniture in one direction from it.
@@ -38,8 +60,9 @@ fn free_place(grid: &ClearanceGrid, furniture: &Furniture, angle: f64) -> Option
     let centre = furniture.centre();
     let direction = vec2(angle.cos(), angle.sin());
     let edge = furniture.footprint.corners().iter().map(|c| (c - centre).dot(&direction)).fold(0.0, f64::max);
-    let steps = ((FARTHEST_M - NEAREST_M) / 0.1) as usize;
-    let place = |i: usize| centre + direction * (edge + NEAREST_M + 0.1 * i as f64);
+    let nearest = (edge + FROM_EDGE_M).max(FROM_MIDDLE_M);
+    let steps = (SLACK_M / 0.1) as usize;
+    let place = |i: usize| centre + direction * (nearest + 0.1 * i as f64);
     (0..=steps).map(place).find(|&point| grid.clearance(grid.cell(point)) >= SWING_M + 0.05)
 }
 

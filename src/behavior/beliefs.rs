@@ -88,7 +88,8 @@ impl Beliefs {
     /// The furniture on which a point lies, or nearest to it within half a metre.
     pub fn under(&self, point: Vec2) -> Option<usize> {
         let near = |f: &Furniture| f.footprint.distance_to(point);
-        let best = (0..self.furniture.len()).min_by(|&a, &b| near(&self.furniture[a]).total_cmp(&near(&self.furniture[b])))?;
+        let best =
+            (0..self.furniture.len()).min_by(|&a, &b| near(&self.furniture[a]).total_cmp(&near(&self.furniture[b])))?;
         (near(&self.furniture[best]) < 0.5).then_some(best)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::approach::viewpoints;
+use super::approach::{better_view, viewpoints};
 use super::motion::{Landmark, RoomFrame, Step, step_for};
 use super::pilot::Pilot;
 use super::regions::lookouts;
@@ -21,6 +21,9 @@ const SWEEP_RAD: f64 = 2.0 * PI / 3.0;
 /// A best candidate below this is a guess: look further before going there.
 const PLAUSIBLE: f64 = 0.12;
 
+/// How often the robot moves to tell for sure what it sees.
+const MOST_SETTLING: usize = 3;
+
 /// How the executive goes about it.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
@@ -32,13 +35,22 @@ pub struct Options {
     pub first_pair_only: bool,
     /// Do not fall back to table-like furniture the words do not fit.
     pub no_fallback: bool,
+    /// Do not go straight to an object recognised in passing: the words alone choose.
+    pub no_glance: bool,
     /// Seconds of robot time a trial may take.
     pub time_limit_s: f64,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { blind: false, one_frame: false, first_pair_only: false, no_fallback: false, time_limit_s: 900.0 }
+        Self {
+            blind: false,
+            one_frame: false,
+            first_pair_only: false,
+            no_fallback: false,
+            no_glance: false,
+            time_limit_s: 900.0,
+        }
     }
 }
 
@@ -142,10 +154,11 @@ impl<'a> Executive<'a> {
                         ordinal: *ordinal,
                         pairs: pairs.clone(),
                         one_frame: self.options.one_frame,
+                        nearest_first: false,
                     };
                 }
                 Action::Find { object } => task.object = object.as_deref(),
-                Action::Search { .. } => {}
+                Action::Search { .. } => task.wanted.nearest_first = true,
                 step if !self.options.blind => task.steps.push(step),
                 _ => {}
             }
@@ -171,7 +184,12 @@ impl<'a> Executive<'a> {
         if self.map.room(room).is_some_and(|room| room.polygon().contains(self.pilot.pose().position())) {
             self.pilot.because("already there");
         } else {
-            self.pilot.because(format!("the {} is entered at ({:.1}, {:.1})", room.replace('_', " "), entry.x, entry.y));
+            self.pilot.because(format!(
+                "the {} is entered at ({:.1}, {:.1})",
+                room.replace('_', " "),
+                entry.x,
+                entry.y
+            ));
             self.pilot.go_to_pose(entry)?;
         }
         self.pilot.end(&format!("in the {}", room.replace('_', " ")));
@@ -220,14 +238,16 @@ impl<'a> Executive<'a> {
             let centre = self.pilot.beliefs.furniture[*i].centre();
             here.bearing_to(centre).abs() + 0.3 * here.distance_to(centre)
         };
-        let nearest = references(&self.pilot.beliefs, noun, self.lexicon).into_iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        let nearest =
+            references(&self.pilot.beliefs, noun, self.lexicon).into_iter().min_by(|a, b| off(a).total_cmp(&off(b)));
         let Some(index) = nearest else {
             self.pilot.because(format!("no {} seen from here", noun.replace('_', " ")));
             return Ok(None);
         };
         let furniture = &self.pilot.beliefs.furniture[index];
         let place = Place { room, arrived: here };
-        let towards = direction.and_then(|(direction, frame)| angle_of(direction, frame, place, furniture.detection.yaw));
+        let towards =
+            direction.and_then(|(direction, frame)| angle_of(direction, frame, place, furniture.detection.yaw));
         let result = (furniture.footprint.clone(), towards);
         let label = furniture.label();
         self.pilot.because(format!("by {label}"));
@@ -270,7 +290,8 @@ impl<'a> Executive<'a> {
             if best >= PLAUSIBLE && missing.is_none() {
                 return Ok(());
             }
-            let reason = missing.map_or("nothing here fits the words well".to_string(), |noun| format!("no {noun} seen yet"));
+            let reason =
+                missing.map_or("nothing here fits the words well".to_string(), |noun| format!("no {noun} seen yet"));
             self.pilot.because(format!("{reason}; looking from ({:.1}, {:.1})", lookout.x, lookout.y));
             self.look_round_at(lookout)?;
         }
@@ -316,7 +337,8 @@ impl<'a> Executive<'a> {
 
     /// The furniture on which the object was seen in passing, else the best ranked.
     fn choose(&mut self, task: &Task, ranked: &[&Ranked]) -> Option<usize> {
-        let seen = task.object.and_then(|name| self.pilot.beliefs.sighting(Some(name)));
+        let glances = !self.options.blind && !self.options.no_glance;
+        let seen = task.object.filter(|_| glances).and_then(|name| self.pilot.beliefs.sighting(Some(name)));
         if let Some(index) = seen.and_then(|sighting| self.pilot.beliefs.under(vec2(sighting.x, sighting.y)))
             && !self.pilot.beliefs.furniture[index].searched
         {
@@ -325,9 +347,8 @@ impl<'a> Executive<'a> {
             return Some(index);
         }
         let best = ranked.first()?;
-        let describe = |r: &Ranked| {
-            format!("{} {:.2} ({})", self.pilot.beliefs.furniture[r.index].label(), r.score, r.reading)
-        };
+        let describe =
+            |r: &Ranked| format!("{} {:.2} ({})", self.pilot.beliefs.furniture[r.index].label(), r.score, r.reading);
         let mut reason = describe(best);
         if let Some(next) = ranked.get(1) {
             reason = format!("{reason} before {}", describe(next));
@@ -340,7 +361,7 @@ impl<'a> Executive<'a> {
     fn check(&mut self, index: usize, object: Option<&str>) -> Result<Option<String>, Halt> {
         let furniture = self.pilot.beliefs.furniture[index].clone();
         self.pilot.beliefs.furniture[index].searched = true;
-        let poses = viewpoints(self.pilot.grid(), self.pilot.pose().position(), &furniture);
+        let poses = viewpoints(self.pilot.grid(), self.pilot.rooms(), self.pilot.pose().position(), &furniture);
         let mut reached = false;
         for pose in poses {
             match self.pilot.go_to_pose(pose) {
@@ -351,9 +372,7 @@ impl<'a> Executive<'a> {
                 self.approached.push(furniture.centre());
                 reached = true;
             }
-            if let Some(sighting) = self.recognised(&furniture.footprint, object) {
-                self.pilot.turn_to(bearing(self.pilot.pose(), &sighting))?;
-                self.pilot.look();
+            if let Some(sighting) = self.settle_on(&furniture.footprint, object)? {
                 self.found_at = Some(vec2(sighting.x, sighting.y));
                 return Ok(Some(format!("the {} is on {}", sighting.name.replace('_', " "), furniture.label())));
             }
@@ -367,10 +386,36 @@ impl<'a> Executive<'a> {
         Ok(None)
     }
 
-    fn recognised(&self, footprint: &Polygon, object: Option<&str>) -> Option<ObjectSighting> {
+    /// Faces the object; when it is in the picture but cannot be told for sure, looks from a better place.
+    fn settle_on(&mut self, footprint: &Polygon, object: Option<&str>) -> Result<Option<ObjectSighting>, Halt> {
+        for _ in 0..MOST_SETTLING {
+            let Some(sighting) = self.sighted(footprint, object) else { return Ok(None) };
+            self.pilot.turn_to(bearing(self.pilot.pose(), &sighting))?;
+            self.pilot.look();
+            match self.sighted(footprint, object) {
+                Some(facing) if facing.recognisable => return Ok(Some(facing)),
+                _ => {}
+            }
+            let here = self.pilot.pose().position();
+            let Some(better) = better_view(self.pilot.grid(), self.pilot.rooms(), here, vec2(sighting.x, sighting.y))
+            else {
+                return Ok(None);
+            };
+            self.pilot.because("something is there that cannot be told from here; looking from a better place");
+            match self.pilot.go_to_pose(better) {
+                Err(Halt::Blocked(_)) => return Ok(None),
+                other => other?,
+            }
+        }
+        Ok(self.sighted(footprint, object).filter(|sighting| sighting.recognisable))
+    }
+
+    /// The object in the present picture: the named one, or any on the furniture when none is named.
+    fn sighted(&self, footprint: &Polygon, object: Option<&str>) -> Option<ObjectSighting> {
         let on_it = |s: &&ObjectSighting| object.is_some() || footprint.distance_to(vec2(s.x, s.y)) < 0.1;
         let named = |s: &&ObjectSighting| object.is_none_or(|name| s.name == name);
-        self.pilot.view().objects.iter().find(|s| s.recognisable && named(s) && on_it(s)).cloned()
+        let seen = || self.pilot.view().objects.iter().filter(named).filter(on_it);
+        seen().find(|s| s.recognisable).or_else(|| seen().next()).cloned()
     }
 }
 

@@ -20,8 +20,10 @@ mod route;
 pub mod search;
 mod watcher;
 
+pub use approach::viewpoints;
 pub use beliefs::{Beliefs, Furniture};
 pub use executive::{Executive, Options, Report};
 pub use journal::Journal;
-pub use pilot::Halt;
+pub use pilot::{Halt, SWING_M, grid_of};
+pub use route::{length, route};
 pub use watcher::{Silent, Watcher};

@@ -69,7 +69,9 @@ pub fn step_for(action: &Action, pose: Pose, room: &RoomFrame, landmark: Option<
         Action::Move { direction: Direction::Front, amount: Some(Amount::Until(what)) } if what != "wall" => {
             Some(landmark.map_or_else(|| walk(pose, room, f64::INFINITY), |at| reach(pose, at)))
         }
-        Action::Move { direction: Direction::Front, amount } => Some(walk(pose, room, walk_length(amount.as_ref(), room))),
+        Action::Move { direction: Direction::Front, amount } => {
+            Some(walk(pose, room, walk_length(amount.as_ref(), room)))
+        }
         Action::Move { direction, amount } => Some(Step::Turn(turned(pose, room, *direction, amount.as_ref()))),
         Action::Go { reference, direction, .. } => match reference.as_str() {
             "room" => Some(room.part(pose, *direction)),
@@ -187,8 +189,12 @@ impl RoomFrame {
         match direction {
             Direction::Back => self.at(far - BEFORE_FAR_WALL_M, here.y, heading),
             Direction::Front => self.at(near + BEFORE_FAR_WALL_M, here.y, heading),
-            Direction::Left => self.at(here.x.max(near + BEFORE_FAR_WALL_M), three_quarters(right, left), heading + FRAC_PI_2),
-            Direction::Right => self.at(here.x.max(near + BEFORE_FAR_WALL_M), three_quarters(left, right), heading - FRAC_PI_2),
+            Direction::Left => {
+                self.at(here.x.max(near + BEFORE_FAR_WALL_M), three_quarters(right, left), heading + FRAC_PI_2)
+            }
+            Direction::Right => {
+                self.at(here.x.max(near + BEFORE_FAR_WALL_M), three_quarters(left, right), heading - FRAC_PI_2)
+            }
             Direction::Central | Direction::Side | Direction::Between => self.at((near + far) / 2.0, here.y, heading),
         }
     }
@@ -271,7 +277,9 @@ mod tests {
 
     #[test]
     fn a_turn_of_so_many_degrees_is_not_rounded() {
-        let Step::Turn(to) = moved(Direction::Right, Some(Amount::Degrees(45.0)), room().entry) else { panic!("a turn") };
+        let Step::Turn(to) = moved(Direction::Right, Some(Amount::Degrees(45.0)), room().entry) else {
+            panic!("a turn")
+        };
         assert!((to - FRAC_PI_2 / 2.0).abs() < 1e-9);
     }
 
@@ -312,7 +320,12 @@ mod tests {
     #[test]
     fn past_the_couch_is_beyond_it_on_the_way_ahead() {
         let couch = Polygon::rectangle(Pose::new(2.5, 3.0, 0.0), 2.0, 1.0);
-        assert_drives(gone("couch", Direction::Side, Some(&Landmark { footprint: &couch, towards: None })), 1.0, 4.2, FRAC_PI_2);
+        assert_drives(
+            gone("couch", Direction::Side, Some(&Landmark { footprint: &couch, towards: None })),
+            1.0,
+            4.2,
+            FRAC_PI_2,
+        );
     }
 
     #[test]

@@ -92,14 +92,14 @@ impl<'a> Pilot<'a> {
         self.base.pose()
     }
 
-    /// Seconds since the trial began.
-    pub fn time_s(&self) -> f64 {
-        self.base.time_s()
-    }
-
     /// The planning grid: rooms and all furniture seen.
     pub fn grid(&self) -> &ClearanceGrid {
         &self.grid
+    }
+
+    /// The grid of the rooms alone.
+    pub fn rooms(&self) -> &ClearanceGrid {
+        &self.rooms_only
     }
 
     /// What the last look showed.

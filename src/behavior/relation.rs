@@ -57,8 +57,8 @@ pub fn to_furniture(
         Direction::Central => Some(halving((candidate.centre() - reference.centre()).norm(), BESIDE_HALVES_M)),
         _ => {
             let angle = angle_of(direction, frame, place, reference.detection.yaw)?;
-            let relation = force::Relation::between(&(&candidate.footprint).into(), &(&reference.footprint).into());
-            Some(relation.degree(angle).a * halving(gap, RELATED_HALVES_M))
+            let (a, b) = (force::Shape::from(&candidate.footprint), force::Shape::from(&reference.footprint));
+            Some(force::Relation::between(&a, &b).degree(angle).a * halving(gap, RELATED_HALVES_M))
         }
     }
 }

@@ -30,6 +30,8 @@ pub struct Wanted {
     pub pairs: Vec<SearchPair>,
     /// Only readings in each pair's first frame.
     pub one_frame: bool,
+    /// By distance alone, whatever the heading.
+    pub nearest_first: bool,
 }
 
 /// A candidate with its score and the reading behind it.
@@ -89,7 +91,7 @@ fn factors(
     let mut factors: Vec<Factor> =
         wanted.pairs.iter().map(|pair| pair_factor(index, beliefs, pair, wanted.one_frame, place, lexicon)).collect();
     let by_robot = wanted.pairs.iter().any(|pair| pair.pair.reference == "robot");
-    factors.push(nearness(candidate, place, by_robot));
+    factors.push(nearness(candidate, place, by_robot || wanted.nearest_first));
     factors.extend(wanted.attributes.iter().map(|attribute| attribute_factor(candidate, attribute)));
     if let Some(ordinal) = wanted.ordinal {
         factors.push(ordinal_factor(index, beliefs, candidates, ordinal, place));
@@ -98,11 +100,11 @@ fn factors(
 }
 
 /// Nearest to the robot's heading first, and nearer before farther.
-fn nearness(candidate: &Furniture, place: Place, by_robot: bool) -> Factor {
+fn nearness(candidate: &Furniture, place: Place, any_heading: bool) -> Factor {
     let bearing = place.arrived.bearing_to(candidate.centre());
     let near = 0.5_f64.powf(place.arrived.distance_to(candidate.centre()) / NEAR_HALVES_M);
     // A stated direction from the robot already says where to look.
-    let ahead = if by_robot { 1.0 } else { 0.2 + 0.8 * (bearing / 2.0).cos().powi(2) };
+    let ahead = if any_heading { 1.0 } else { 0.2 + 0.8 * (bearing / 2.0).cos().powi(2) };
     Factor { value: near * ahead, reading: format!("{:.0}° off the heading", bearing.to_degrees()) }
 }
 
@@ -196,7 +198,10 @@ fn object_factor(candidate: &Furniture, beliefs: &Beliefs, noun: &str, phrase: &
 }
 
 fn best_between(candidate: &Furniture, references: &[&Furniture]) -> f64 {
-    let pairs = references.iter().enumerate().flat_map(|(i, first)| references[i + 1..].iter().map(move |second| (first, second)));
+    let pairs = references
+        .iter()
+        .enumerate()
+        .flat_map(|(i, first)| references[i + 1..].iter().map(move |second| (first, second)));
     let best = pairs.map(|(first, second)| relation::between(candidate, first, second)).fold(0.0, f64::max);
     // One of the two may be hidden; beside the other is then the best that can be seen.
     if references.len() == 1 { UNSEEN * beside(candidate, references[0]) } else { best }

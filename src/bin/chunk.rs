@@ -1,10 +1,12 @@
 //! Text in, tokens and chunk tree out.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
-use spatial_fetch::language::Chunker;
+use spatial_fetch::language::{Chunker, lexicon_with};
 use spatial_fetch::record::{Chunk, Token};
 
 /// Finds the phrases of a spatial description: rooms, moves, places, furniture, objects.
@@ -20,6 +22,9 @@ struct Arguments {
     /// Name the rule behind each chunk
     #[arg(long)]
     explain: bool,
+    /// Nouns to add to the lexicon: lines of name, class, other names, separated by tabs
+    #[arg(long, value_name = "FILE")]
+    lexicon: Option<PathBuf>,
     #[command(flatten)]
     common: Common,
 }
@@ -41,7 +46,10 @@ impl Program for Arguments {
         schemars::schema_for!(Chunked)
     }
     fn run(self) -> Result<Exit, Failure> {
-        cli::run_filter(Self::NAME, &self.common, Intake::RecordsOrText, &Chunker { explain: self.explain })
+        let lexicon = self.lexicon.as_deref().map(lexicon_with).transpose();
+        let lexicon = lexicon.map_err(|error| Failure::Failed(error.to_string()))?.map(Arc::new);
+        let chunker = Chunker { lexicon, explain: self.explain };
+        cli::run_filter(Self::NAME, &self.common, Intake::RecordsOrText, &chunker)
     }
 }
 

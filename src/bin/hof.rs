@@ -2,7 +2,7 @@
 
 use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
-use spatial_fetch::force::{Describer, ForceName, FrameName, Picture, raster::Fuzzy};
+use spatial_fetch::force::{Describer, ForceName, FrameName, Pictures, raster::Fuzzy};
 
 /// Histogram of forces: where is A, seen from B?
 ///
@@ -39,10 +39,8 @@ impl Program for Arguments {
     }
     fn run(self) -> Result<Exit, Failure> {
         let Self { forces, directions, frame, fuzzy, svg, common } = self;
-        let overwrite = common.force;
-        let picture =
-            svg.map(|folder| -> Picture { Box::new(move |id, svg| cli::save_picture(&folder, id, svg, overwrite)) });
-        let stage = Describer { forces, directions: directions as usize, frame, fuzzy, picture };
+        let pictures = svg.map(|folder| Pictures { folder, overwrite: common.force });
+        let stage = Describer { forces, directions: directions as usize, frame, fuzzy, pictures };
         cli::run_filter(Self::NAME, &common, Intake::Records, &stage)
     }
 }

@@ -3,6 +3,8 @@
 use std::io;
 use std::process::ExitCode;
 
+use crate::files::FileError;
+
 /// How a run ended that was not cut short.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
@@ -33,6 +35,15 @@ impl Failure {
             io::ErrorKind::BrokenPipe => Self::BrokenPipe,
             io::ErrorKind::StorageFull => Self::Failed(format!("{target}: the disk is full; free space and run again")),
             _ => Self::Failed(format!("{target}: {error}")),
+        }
+    }
+}
+
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        match error {
+            FileError::Exists(_) => Self::Usage(error.to_string()),
+            FileError::System(name, error) => Self::writing(&name, &error),
         }
     }
 }

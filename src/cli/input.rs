@@ -26,6 +26,11 @@ pub struct Line {
     pub terminated: bool,
 }
 
+/// The text of a file.
+pub fn read_file(path: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))
+}
+
 /// All input files, one after another.
 pub struct Inputs {
     waiting: VecDeque<PathBuf>,

@@ -7,21 +7,21 @@
 mod arguments;
 mod diagnostic;
 mod exit;
-mod files;
 mod filter;
 mod input;
 mod interrupt;
 mod output;
 mod program;
 mod progress;
+mod scores;
 
 pub use arguments::{ColorChoice, Common, Format};
 pub use diagnostic::{Diagnostic, Reporter};
 pub use exit::{Exit, Failure};
-pub use files::{read_file, save_picture, write_file};
 pub use filter::{Intake, run_filter};
-pub use input::{Inputs, Line};
+pub use input::{Inputs, Line, read_file};
 pub use interrupt::on_interrupt;
 pub use output::{SharedSink, Sink, open_output};
 pub use program::{Program, command_of, main};
 pub use progress::Progress;
+pub use scores::{Table, load_gold, read_lines, write_scores};

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use tempfile::NamedTempFile;
 
 use super::{Common, Failure};
+use crate::files;
 
 /// How long an interrupt waits for a write: a reader that has stalled must not keep us alive.
 const STUCK_AFTER: Duration = Duration::from_millis(500);
@@ -84,9 +85,7 @@ fn open_file(path: &Path, force: bool) -> Result<Target, Failure> {
         }
         _ => {}
     }
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let temporary = NamedTempFile::new_in(folder).map_err(named)?;
-    Ok(Target::File { temporary, path: path.to_path_buf(), force })
+    Ok(Target::File { temporary: files::temporary_beside(path)?, path: path.to_path_buf(), force })
 }
 
 impl Sink {
@@ -103,35 +102,6 @@ impl Sink {
         let Target::File { temporary, path, force } = std::mem::replace(&mut self.target, Target::Closed) else {
             return Ok(());
         };
-        persist(temporary, &path, force)
+        Ok(files::persist(temporary, &path, force)?)
     }
-}
-
-/// Renames a temporary file onto `path`, with the permissions a new file would have.
-pub(super) fn persist(temporary: NamedTempFile, path: &Path, force: bool) -> Result<(), Failure> {
-    let named = |e: io::Error| Failure::Failed(format!("{}: {e}", path.display()));
-    widen_permissions(&temporary).map_err(named)?;
-    if force {
-        temporary.persist(path).map_err(|e| named(e.error))?;
-    } else {
-        temporary.persist_noclobber(path).map_err(|e| match e.error.kind() {
-            io::ErrorKind::AlreadyExists => {
-                Failure::Usage(format!("{} exists; name another file or give --force", path.display()))
-            }
-            _ => named(e.error),
-        })?;
-    }
-    Ok(())
-}
-
-/// Temporary files are private; an output file should be readable as any other.
-#[cfg(unix)]
-fn widen_permissions(file: &NamedTempFile) -> io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-fn widen_permissions(_file: &NamedTempFile) -> io::Result<()> {
-    Ok(())
 }

@@ -1,1 +1,17 @@
-//! Experiments, metrics and tables.
+//! Experiments, metrics and tables: what the system reads, understands and finds, against gold.
+
+mod brackets;
+mod gold;
+mod interval;
+mod labelled;
+mod model;
+mod score;
+mod table;
+
+pub use brackets::{Bracket, brackets_of};
+pub use gold::{Gold, GoldError, read_gold};
+pub use interval::Rate;
+pub use labelled::{LabelledChunk, LabelledTree, TreeError, parse_tree};
+pub use model::training_record;
+pub use score::{Group, Scores, run_corpus, score};
+pub use table::text_tables;

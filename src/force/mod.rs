@@ -48,6 +48,6 @@ pub use main_direction::main_direction;
 pub use name::{ForceName, FrameName};
 pub use relation::Relation;
 pub use shape::{Shape, ShapeError};
-pub use stage::{Describer, Picture};
+pub use stage::{Describer, Pictures};
 pub use surround::{between, surround};
 pub use wording::{Assessment, Closeness};

@@ -1,19 +1,27 @@
 //! `hof` as a stage: two shapes in a record, histograms and a sentence out.
 
 use std::collections::BTreeMap;
-use std::fmt;
+use std::path::PathBuf;
 
 use super::input::{Extent, Object, object};
 use super::polygon::{histograms, hybrid};
 use super::raster::{Fuzzy, Pair};
 use super::rose::picture;
 use super::{Description, Force, ForceName, Frame, FrameName, Histogram, Infinite, Relation};
+use crate::files::write_file;
 use crate::record::{DegreeOfTruth, Hof, HofForce, Note, Record, Stage, StageError};
 
-/// Takes a picture of a record: its id, and the SVG.
-pub type Picture = Box<dyn Fn(&str, &str) -> Result<(), String> + Sync + Send>;
+/// Where pictures go: each to `FOLDER/ID.svg`.
+#[derive(Clone, Debug)]
+pub struct Pictures {
+    /// Made if it is not there.
+    pub folder: PathBuf,
+    /// Whether files that exist may go.
+    pub overwrite: bool,
+}
 
 /// Computes histograms of forces for records that hold two shapes, `a` and `b`, and describes where `a` is of `b`.
+#[derive(Clone, Debug)]
 pub struct Describer {
     /// The forces wanted.
     pub forces: Vec<ForceName>,
@@ -23,20 +31,8 @@ pub struct Describer {
     pub frame: FrameName,
     /// How memberships of fuzzy rasters combine.
     pub fuzzy: Fuzzy,
-    /// What to do with pictures, when they are wanted.
-    pub picture: Option<Picture>,
-}
-
-impl fmt::Debug for Describer {
-    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-        formatter
-            .debug_struct("Describer")
-            .field("forces", &self.forces)
-            .field("directions", &self.directions)
-            .field("frame", &self.frame)
-            .field("fuzzy", &self.fuzzy)
-            .finish_non_exhaustive()
-    }
+    /// Where to draw both objects and the histograms, when pictures are wanted.
+    pub pictures: Option<Pictures>,
 }
 
 /// What two objects of one kind yield.
@@ -83,7 +79,7 @@ impl Describer {
     }
 
     fn draw(&self, record: &Record, objects: [&Object; 2], measured: &Measured, hof: &Hof) -> Result<(), StageError> {
-        let Some(take) = &self.picture else { return Ok(()) };
+        let Some(pictures) = &self.pictures else { return Ok(()) };
         let id = record.id().ok_or_else(|| StageError::new("`id` is missing; pictures are named after it"))?;
         let finite = self.forces.iter().zip(&measured.histograms);
         let roses: Vec<(String, Histogram)> =
@@ -91,7 +87,17 @@ impl Describer {
         let [a, b] = objects;
         let names = [spoken(a, "A"), spoken(b, "B")];
         let svg = picture([&a.extent, &b.extent], [&names[0], &names[1]], &roses, &hof.description);
-        take(&id, &svg).map_err(StageError::new)
+        pictures.save(&id, &svg).map_err(StageError::new)
+    }
+}
+
+impl Pictures {
+    fn save(&self, id: &str, svg: &str) -> Result<(), String> {
+        let plain = |c: char| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' };
+        let name: String = id.chars().map(plain).collect();
+        std::fs::create_dir_all(&self.folder).map_err(|error| format!("{}: {error}", self.folder.display()))?;
+        let path = self.folder.join(format!("{name}.svg"));
+        write_file(&path, svg.as_bytes(), self.overwrite).map_err(|error| error.to_string())
     }
 }
 
@@ -157,7 +163,7 @@ mod tests {
 
     fn describer(frame: FrameName) -> Describer {
         let forces = vec![ForceName::Power(0.0), ForceName::Power(2.0), ForceName::Hybrid];
-        Describer { forces, directions: 16, frame, fuzzy: Fuzzy::Product, picture: None }
+        Describer { forces, directions: 16, frame, fuzzy: Fuzzy::Product, pictures: None }
     }
 
     fn run(frame: FrameName, line: &str) -> Result<Hof, StageError> {

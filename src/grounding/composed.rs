@@ -3,19 +3,34 @@
 use super::meaning::{Meaning, pair};
 use super::words::ChunkWords;
 use crate::language::{Class, Lexicon, Relation, Role, Unit, UnitKind, leading_relation, units};
-use crate::record::{Amount, Direction, Tag};
+use crate::record::{Amount, Direction, Grounding, Pair, Tag};
 
-/// What the own words of `chunk` mean.
-pub fn meaning_of(chunk: &ChunkWords, lexicon: &Lexicon) -> Meaning {
+/// What the own words of `chunk` mean. `continues_move`: it is joined to a move by "and" or "then".
+pub fn meaning_of(chunk: &ChunkWords, lexicon: &Lexicon, continues_move: bool) -> Meaning {
     let units = units(&chunk.words, lexicon);
     let words = Words { units: &units };
     match chunk.tag {
         Tag::Ormtp | Tag::Ormrp => words.room(),
+        Tag::Irmrp if continues_move => words.as_move().unwrap_or_else(|| words.place()),
         Tag::Irmrp => words.place(),
         Tag::Furtp => words.target(),
+        // "A table and two chairs": furniture that is only mentioned is no landmark.
+        Tag::Furrp if chunk.children.is_empty() && words.only_mentions() => Meaning {
+            score: 0.8,
+            because: "furniture in company, without a relation".to_string(),
+            ..Meaning::default()
+        },
         Tag::Furrp => words.landmark(Class::is_furniture),
-        Tag::Obrp => words.landmark(|_| true),
+        Tag::Obrp => words.object_landmark(),
         Tag::Obtp => words.object(),
+        Tag::Pers if words.has(&["face", "faces", "facing", "looking", "look", "looks"]) && words.side().is_none() => {
+            Meaning {
+                facing: true,
+                score: 0.9,
+                because: "seen by someone who faces it".to_string(),
+                ..Meaning::default()
+            }
+        }
         Tag::Pers => words.side().map_or_else(Meaning::default, |side| Meaning::of_pair("robot", side, "whose side")),
         Tag::Conf => Meaning { score: 1.0, because: "taken back by the speaker".to_string(), ..Meaning::default() },
     }
@@ -27,7 +42,16 @@ struct Words<'u> {
 
 impl Words<'_> {
     fn has(&self, words: &[&str]) -> bool {
-        self.units.iter().any(|unit| words.contains(&unit.lower.as_str()))
+        self.units.iter().any(|unit| words.contains(&unit.lower.as_ref()))
+    }
+
+    /// No word says how: "two chairs".
+    fn only_mentions(&self) -> bool {
+        let mentions = |unit: &Unit| {
+            matches!(unit.role(), Some(Role::Determiner | Role::Number | Role::Adjective | Role::Conjunction))
+                || unit.class().is_some()
+        };
+        self.units.iter().all(mentions)
     }
 
     fn has_role(&self, role: Role) -> bool {
@@ -47,7 +71,7 @@ impl Words<'_> {
 
     /// The last side said: "left or … right" has been corrected.
     fn side(&self) -> Option<Direction> {
-        self.units.iter().rev().find_map(|unit| match (unit.role(), unit.lower.as_str()) {
+        self.units.iter().rev().find_map(|unit| match (unit.role(), unit.lower.as_ref()) {
             (Some(Role::Side), "left") => Some(Direction::Left),
             (Some(Role::Side), "right") => Some(Direction::Right),
             _ => None,
@@ -61,7 +85,7 @@ impl Words<'_> {
 
     fn attributes(&self) -> Vec<String> {
         let told = self.units.iter().filter(|unit| unit.role() == Some(Role::Adjective));
-        told.map(|unit| unit.lower.clone()).filter(|word| !matches!(word.as_str(), "other" | "same")).collect()
+        told.map(|unit| unit.lower.to_string()).filter(|word| !matches!(word.as_str(), "other" | "same")).collect()
     }
 
     /// "three steps", "2 m", "forty five degrees".
@@ -94,6 +118,14 @@ impl Words<'_> {
         Meaning { room: room.map(str::to_string), side, ordinal: self.ordinal(), score, because, ..Meaning::default() }
     }
 
+    /// "(Go forward) and then to the right", "and straight ahead".
+    fn as_move(&self) -> Option<Meaning> {
+        let place =
+            self.units.iter().any(|unit| unit.class().is_some()) || self.has(&["on", "in", "end", "back", "far"]);
+        let direction = self.side().or_else(|| self.has_role(Role::Ahead).then_some(Direction::Front))?;
+        (!place).then(|| Meaning::of_pair("move", direction, "goes on from the move before"))
+    }
+
     /// A place or a move inside the room.
     fn place(&self) -> Meaning {
         self.wall()
@@ -121,7 +153,9 @@ impl Words<'_> {
     }
 
     fn door(&self) -> Option<Meaning> {
-        let beginning = self.has(&["beginning"]);
+        let beginning = self.has(&["beginning"])
+            || self.units.first().is_some_and(|unit| unit.role() == Some(Role::Adverb))
+                && (self.has(&["as", "when", "after", "once"]) || self.units.len() == 2 && self.has(&["inside"]));
         if self.noun(|class| class == Class::Opening).is_none() && !beginning {
             return None;
         }
@@ -133,7 +167,10 @@ impl Words<'_> {
     }
 
     fn part_of_room(&self) -> Option<Meaning> {
-        let far = self.has(&["far"]);
+        if self.has(&["where", "you", "him", "he"]) && self.has(&["across", "opposite"]) {
+            return None;
+        }
+        let far = self.has(&["far", "farther", "further", "furthest", "farthest"]);
         let corner = self.noun(|class| class == Class::Part).is_some();
         if corner
             && (far || self.has(&["back"]))
@@ -157,8 +194,7 @@ impl Words<'_> {
         {
             return Some(Meaning::of_pair("room", side, "a side of the room"));
         }
-        let goes_back = self.has_role(Role::Motion) && !self.has_role(Role::Preposition);
-        if far || self.has(&["end", "rear", "opposite", "across", "other"]) || self.has(&["back"]) && !goes_back {
+        if far || self.has(&["end", "rear", "opposite", "across", "cross", "crosses", "other"]) || self.names_back() {
             return Some(Meaning::of_pair("room", Direction::Back, "the far end of the room"));
         }
         if corner {
@@ -168,7 +204,19 @@ impl Words<'_> {
         front.then(|| Meaning::of_pair("room", Direction::Front, "the front of the room"))
     }
 
+    /// "The back", "in back"; not "go back to".
+    fn names_back(&self) -> bool {
+        let named = |before: &Unit| {
+            matches!(before.role(), Some(Role::Determiner | Role::Hearer | Role::Adjective | Role::Part))
+                || matches!(before.lower.as_ref(), "in" | "at" | "very")
+        };
+        self.units.windows(2).any(|pair| pair[1].lower == "back" && named(&pair[0]))
+    }
+
     fn motion(&self) -> Option<Meaning> {
+        if self.has_role(Role::Look) && self.has(&["around"]) {
+            return Some(Meaning { score: 0.8, because: "looks around".to_string(), ..Meaning::default() });
+        }
         if self.has(&["around", "back"]) && self.moves() && self.side().is_none() {
             return Some(Meaning::of_pair("move", Direction::Back, "turn round"));
         }
@@ -187,7 +235,9 @@ impl Words<'_> {
         let direction = match self.side() {
             Some(side) => side,
             None if self.has(&["behind"]) => Direction::Back,
-            None if self.has(&["ahead", "front", "straight"]) => Direction::Front,
+            None if self.has(&["ahead", "straight"]) => Direction::Front,
+            None if self.has(&["front"]) && self.has(&["in"]) => Direction::Front,
+            None if self.has(&["across", "opposite"]) => Direction::Front,
             None => return None,
         };
         Some(Meaning::of_pair("robot", direction, "a side of the hearer"))
@@ -207,7 +257,7 @@ impl Words<'_> {
         };
         let before_noun = |words: &[&str]| {
             let at = self.units.iter().position(|unit| unit.class().is_some()).unwrap_or(0);
-            self.units[..at].iter().skip(1).any(|unit| words.contains(&unit.lower.as_str()))
+            self.units[..at].iter().skip(1).any(|unit| words.contains(&unit.lower.as_ref()))
                 && !self.has(&["of", "middle", "edge", "top"])
         };
         if before_noun(&["back", "far"]) {
@@ -218,7 +268,10 @@ impl Words<'_> {
     }
 
     fn landmark(&self, fits: impl Fn(Class) -> bool + Copy) -> Meaning {
-        let nouns: Vec<&str> = self.nouns(fits).collect();
+        let mut nouns: Vec<String> = self.nouns(fits).map(str::to_string).collect();
+        if nouns.is_empty() {
+            nouns.extend(self.last_unknown());
+        }
         let Some(reference) = nouns.first() else {
             return Meaning { because: "no landmark in these words".to_string(), ..Meaning::default() };
         };
@@ -230,7 +283,7 @@ impl Words<'_> {
         pairs[0].ordinal = self.ordinal();
         if let Some(second) = nouns.get(1).filter(|second| *second != reference) {
             if direction == Direction::Between {
-                pairs[0].and = Some((*second).to_string());
+                pairs[0].and = Some(second.clone());
             }
             pairs.push(pair(second, direction));
         }
@@ -239,14 +292,35 @@ impl Words<'_> {
         Meaning { pairs, score: 0.9, because, ..Meaning::default() }
     }
 
+    /// An object as landmark; one that "the table has on it" may be the very object.
+    fn object_landmark(&self) -> Meaning {
+        let meaning = self.landmark(|_| true);
+        let on_it = self.has(&["with", "has", "had", "have"]) && self.has(&["on"]) && self.has(&["the", "my", "your"]);
+        let object = self.noun(|class| class == Class::Object).filter(|_| on_it).map(str::to_string);
+        Meaning { object, ..meaning }
+    }
+
     fn object(&self) -> Meaning {
         let known = self.nouns(|class| class == Class::Object).last().map(str::to_string);
         let (object, score) = match known {
+            Some(name) if self.has(&["a", "an", "some"]) && !self.has(&["the"]) => (Some(name), 0.8),
             Some(name) => (Some(name), 0.97),
             None => (self.unknown_noun(), 0.6),
         };
         let because = object.as_ref().map_or("names no object".to_string(), |name| format!("names `{name}`"));
-        Meaning { object, attributes: self.attributes(), score, because, ..Meaning::default() }
+        Meaning {
+            object,
+            indefinite: score == 0.8,
+            attributes: self.attributes(),
+            score,
+            because,
+            ..Meaning::default()
+        }
+    }
+
+    fn last_unknown(&self) -> Option<String> {
+        let word = self.units.iter().rev().find(|unit| unit.kind == UnitKind::Unknown)?.lower.replace('-', "_");
+        Some(singular(&word).to_string())
     }
 
     /// The last word the lexicon does not have, before the clause's verb: "the widget is".
@@ -257,6 +331,29 @@ impl Words<'_> {
         before.iter().any(article).then_some(())?;
         before.iter().rev().find(|unit| unit.kind == UnitKind::Unknown).map(|unit| unit.lower.replace('-', "_"))
     }
+}
+
+/// Words of relation mark a landmark; a description that names no target but a table as landmark means that table.
+pub fn settle_target(grounding: &mut Grounding, lexicon: &Lexicon) {
+    if grounding.nodes.iter().any(|node| node.target.is_some()) {
+        return;
+    }
+    let holds =
+        |pair: &Pair| pair.direction == Direction::Side && lexicon.class_of(&pair.reference) == Some(Class::TableLike);
+    for node in &mut grounding.nodes {
+        if let Some(at) = node.pairs.iter().position(holds) {
+            let table = node.pairs.remove(at);
+            node.target = Some(table.reference);
+            node.ordinal = table.ordinal;
+            node.score = 0.7.into();
+            return;
+        }
+    }
+}
+
+/// "terrariums" → "terrarium"; "glass" stays.
+fn singular(word: &str) -> &str {
+    word.strip_suffix('s').filter(|stem| stem.len() > 2 && !stem.ends_with('s')).unwrap_or(word)
 }
 
 fn number(word: &str) -> Option<f64> {

@@ -1,11 +1,15 @@
 //! Grounds a chunk tree by either method.
 
-use super::composed::meaning_of;
-use super::paper::Model;
-use super::words::{ChunkWords, chunk_words};
+use std::sync::Arc;
+
+use super::composed::{meaning_of, settle_target};
+use super::paper::{LabelledTree, Model};
+use super::readings;
+use super::words::{ChunkWords, chunk_words_of};
 use super::{Meaning, assemble};
-use crate::language::{Lexicon, Role, UnitKind, tokens::tokenize, units};
-use crate::record::{Chunk, Grounding, TextSpan, Why};
+use crate::language::tokens::{Word, tokenize};
+use crate::language::{Class, Lexicon, Role, Unit, UnitKind, units};
+use crate::record::{Chunk, Grounding, Tag, TextSpan, Token, Why};
 
 /// How chunks get their meaning.
 #[derive(Clone, Debug, Default)]
@@ -14,38 +18,51 @@ pub enum Method {
     #[default]
     Composed,
     /// From the nearest labelled example, by the published equations.
-    Paper(Box<Model>),
+    Paper(Arc<Model>),
 }
 
 /// Grounds descriptions.
 #[derive(Clone, Debug)]
 pub struct Grounder {
     method: Method,
-    lexicon: &'static Lexicon,
+    lexicon: Arc<Lexicon>,
     brief: bool,
 }
 
 impl Grounder {
-    /// A grounder; `brief` leaves out the reasons.
+    /// A grounder with the embedded lexicon; `brief` leaves out readings and reasons.
     pub fn new(method: Method, brief: bool) -> Self {
-        Self { method, lexicon: Lexicon::embedded(), brief }
+        Self::with_lexicon(method, brief, Arc::new(Lexicon::embedded().clone()))
+    }
+
+    /// A grounder with a lexicon of one's own.
+    pub fn with_lexicon(method: Method, brief: bool, lexicon: Arc<Lexicon>) -> Self {
+        Self { method, lexicon, brief }
     }
 
     /// The meaning of a chunk tree over `text`.
-    pub fn ground(&self, text: &str, chunks: &[Chunk]) -> Grounding {
-        let chunks = chunk_words(text, chunks);
-        let meanings: Vec<Meaning> = match &self.method {
-            Method::Composed => chunks.iter().map(|chunk| meaning_of(chunk, self.lexicon)).collect(),
-            Method::Paper(model) => model.meanings(&chunks, self.lexicon),
+    ///
+    /// `tokens` give the paper's method its parts of speech; they may be empty.
+    pub fn ground(&self, text: &str, tokens: &[Token], chunks: &[Chunk]) -> Grounding {
+        let words = tokenize(text);
+        let tree = chunks;
+        let chunks = chunk_words_of(&words, tree);
+        let meanings = match &self.method {
+            Method::Composed => self.composed(&words, &chunks),
+            Method::Paper(model) => model.meanings(&LabelledTree::unlabelled(text, tokens, tree)),
         };
         let mut grounding = assemble(&chunks, &meanings);
-        let parts = grounding.nodes.iter().map(|node| node.score.0);
-        let parts =
-            parts.chain(grounding.room.iter().map(|r| r.score.0)).chain(grounding.object.iter().map(|o| o.score.0));
-        grounding.score = parts.fold(1.0, |product: f64, score| product * score).into();
-        grounding.warnings = self.warnings(text, &chunks);
-        if !self.brief {
-            grounding.unused = self.unused(text, &chunks);
+        if matches!(self.method, Method::Composed) {
+            settle_target(&mut grounding, &self.lexicon);
+        }
+        readings::score(&mut grounding);
+        let units = units(&words, &self.lexicon);
+        grounding.warnings = warnings(text, &units, &chunks);
+        readings::rank(&mut grounding, &chunks, &meanings);
+        if self.brief {
+            grounding.readings.clear();
+        } else {
+            grounding.unused = unused(text, &words, &units, &chunks);
             grounding.why = chunks.iter().zip(&meanings).map(|(chunk, meaning)| why(chunk, meaning)).collect();
         }
         if grounding.room.is_none() && grounding.object.is_none() && grounding.nodes.is_empty() {
@@ -55,43 +72,67 @@ impl Grounder {
         grounding
     }
 
-    fn warnings(&self, text: &str, chunks: &[ChunkWords]) -> Vec<String> {
-        let words = tokenize(text);
-        let negated = units(&words, self.lexicon).iter().any(|unit| unit.role() == Some(Role::Negation));
-        let corrected = chunks.iter().find(|chunk| chunk.tag == crate::record::Tag::Conf);
-        let mut warnings = Vec::new();
-        if negated {
-            warnings.push("a negation was heard and is not acted on".to_string());
-        }
-        if let Some(chunk) = corrected {
-            warnings.push(format!("\"{}\" was taken back", &text[chunk.start..chunk.end]));
-        }
-        warnings
+    fn composed(&self, words: &[Word], chunks: &[ChunkWords]) -> Vec<Meaning> {
+        let meaning = |i: usize| meaning_of(&chunks[i], &self.lexicon, continues_move(i, words, chunks));
+        (0..chunks.len()).map(meaning).collect()
     }
 
-    /// Content words in no chunk.
-    fn unused(&self, text: &str, chunks: &[ChunkWords]) -> Vec<TextSpan> {
-        let words = tokenize(text);
-        let mut covered = vec![false; words.len()];
-        for chunk in chunks.iter().filter(|chunk| chunk.parent.is_none()) {
-            let from = words.partition_point(|word| word.start < chunk.start);
-            let past = words.partition_point(|word| word.end <= chunk.end);
-            covered[from..past.max(from)].fill(true);
-        }
-        let content = |kind: &UnitKind| match kind {
-            UnitKind::Noun(..) | UnitKind::Unknown => true,
-            UnitKind::Word(role) => {
-                matches!(role, Role::Side | Role::Turn | Role::Motion | Role::Adjective | Role::Part)
-            }
-            UnitKind::Stop => false,
-        };
-        let unused = units(&words, self.lexicon).into_iter().filter(|unit| content(&unit.kind) && !covered[unit.first]);
-        let span = |unit: &crate::language::Unit| {
-            let (start, end) = (words[unit.first].start, words[unit.past - 1].end);
-            TextSpan { text: text[start..end].to_string(), start, end }
-        };
-        unused.map(|unit| span(&unit)).collect()
+    /// Whether the method looks at parts of speech.
+    pub fn wants_tokens(&self) -> bool {
+        matches!(self.method, Method::Paper(_))
     }
+
+    /// The words it knows.
+    pub fn lexicon(&self) -> &Lexicon {
+        &self.lexicon
+    }
+}
+
+/// Whether a chunk outside all others follows a move or a turn with only "and", "then" between.
+fn continues_move(index: usize, words: &[Word], chunks: &[ChunkWords]) -> bool {
+    let chunk = &chunks[index];
+    if chunk.tag != Tag::Irmrp || chunk.parent.is_some() || index == 0 {
+        return false;
+    }
+    let Some(before) = chunks[..index].iter().rfind(|other| other.parent.is_none()) else { return false };
+    let from = words.partition_point(|word| word.start < before.end);
+    let past = words.partition_point(|word| word.start < chunk.start);
+    let joins = |word: &Word| matches!(word.lower.as_ref(), "and" | "then" | "uh" | "um" | "so");
+    matches!(before.tag, Tag::Irmrp | Tag::Ormtp) && from < past && words[from..past].iter().all(joins)
+}
+
+fn warnings(text: &str, units: &[Unit], chunks: &[ChunkWords]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if let Some(at) = units.iter().position(|unit| unit.role() == Some(Role::Negation)) {
+        let noun = units[at..].iter().find(|unit| unit.class().is_some_and(Class::is_furniture));
+        let about = noun.map_or(String::new(), |noun| format!(" (\"{} … {}\")", units[at].lower, noun.lower));
+        warnings.push(format!("a negation was heard{about}; what it rules out is left out of the reading"));
+    }
+    let corrected = chunks.iter().filter(|chunk| chunk.tag == Tag::Conf);
+    warnings.extend(corrected.map(|chunk| format!("\"{}\" was taken back", &text[chunk.start..chunk.end])));
+    warnings
+}
+
+/// Content words in no chunk.
+fn unused(text: &str, words: &[Word], units: &[Unit], chunks: &[ChunkWords]) -> Vec<TextSpan> {
+    let mut covered = vec![false; words.len()];
+    for chunk in chunks.iter().filter(|chunk| chunk.parent.is_none()) {
+        let from = words.partition_point(|word| word.start < chunk.start);
+        let past = words.partition_point(|word| word.end <= chunk.end);
+        covered[from..past.max(from)].fill(true);
+    }
+    let content = |kind: &UnitKind| match kind {
+        UnitKind::Noun(..) | UnitKind::Unknown => true,
+        UnitKind::Word(role) => {
+            matches!(role, Role::Side | Role::Turn | Role::Motion | Role::Adjective | Role::Part)
+        }
+        UnitKind::Stop => false,
+    };
+    let span = |unit: &Unit| {
+        let (start, end) = (words[unit.first].start, words[unit.past - 1].end);
+        TextSpan { text: text[start..end].to_string(), start, end }
+    };
+    units.iter().filter(|unit| content(&unit.kind) && !covered[unit.first]).map(span).collect()
 }
 
 fn why(chunk: &ChunkWords, meaning: &Meaning) -> Why {
@@ -100,7 +141,7 @@ fn why(chunk: &ChunkWords, meaning: &Meaning) -> Why {
         start: chunk.start,
         end: chunk.end,
         tag: chunk.tag,
-        kind: None,
+        kind: meaning.kind.map(|kind| kind.name().to_string()),
         room: meaning.room.clone().or_else(|| meaning.side.map(|side| side.name().to_string())),
         object: meaning.object.clone(),
         reference: pair.map(|pair| pair.reference.clone()),

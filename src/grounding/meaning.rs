@@ -1,16 +1,45 @@
 //! What one chunk means.
 
-use crate::record::{Amount, Direction, Frame, Pair};
+use serde::{Deserialize, Serialize};
+
+use crate::record::{Amount, Direction, Frame, Pair, Tag};
+
+/// What a chunk is about: step 1 of the published method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// The room to enter.
+    TargetRoom,
+    /// Places, moves, furniture.
+    InsideRoomNavigation,
+    /// The object to find.
+    TargetObject,
+}
+
+impl Kind {
+    /// The name as it stands in records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::TargetRoom => "target_room",
+            Self::InsideRoomNavigation => "inside_room_navigation",
+            Self::TargetObject => "target_object",
+        }
+    }
+}
 
 /// The meaning of one chunk's own words, without those of the chunks inside it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Meaning {
+    /// The type of step 1, where the method has one.
+    pub kind: Option<Kind>,
     /// Room named.
     pub room: Option<String>,
     /// Side that picks the room.
     pub side: Option<Direction>,
     /// Object named.
     pub object: Option<String>,
+    /// Whether the object came with "a": one among others, not the one asked for.
+    pub indefinite: bool,
     /// Target furniture.
     pub target: Option<String>,
     /// Colour, size, shape.
@@ -19,6 +48,8 @@ pub struct Meaning {
     pub ordinal: Option<u32>,
     /// References and directions, usually one.
     pub pairs: Vec<Pair>,
+    /// "As you face it": the pair before is seen by someone who stands before the item and looks at it.
+    pub facing: bool,
     /// How sure, 0 to 1.
     pub score: f64,
     /// In words, why.
@@ -44,6 +75,30 @@ fn likeliest_frame(reference: &str) -> Frame {
         "chair" | "armchair" | "stool" | "tv" | "computer" | "monitor" | "laptop" => Frame::Intrinsic,
         _ => Frame::Viewer,
     }
+}
+
+/// The meaning a gold label gives a chunk: a side or a room, a noun, or `reference/direction`, several with commas.
+pub fn meaning_of_label(tag: Tag, label: Option<&str>) -> Meaning {
+    let mut meaning = Meaning { score: 1.0, because: "labelled".to_string(), ..Meaning::default() };
+    let Some(label) = label else { return meaning };
+    match tag {
+        Tag::Ormtp | Tag::Ormrp => match direction_of(label) {
+            Some(side) => meaning.side = Some(side),
+            None => meaning.room = Some(label.to_string()),
+        },
+        Tag::Obtp => meaning.object = Some(label.to_string()),
+        Tag::Furtp => meaning.target = Some(label.to_string()),
+        _ => {
+            let pairs = label.split(',').filter_map(|pair| pair.split_once('/'));
+            meaning.pairs = pairs.filter_map(|(reference, name)| Some(pair(reference, direction_of(name)?))).collect();
+        }
+    }
+    meaning
+}
+
+fn direction_of(name: &str) -> Option<Direction> {
+    use Direction::{Back, Between, Central, Front, Left, Right, Side};
+    [Front, Back, Left, Right, Central, Side, Between].into_iter().find(|direction| direction.name() == name)
 }
 
 impl Meaning {

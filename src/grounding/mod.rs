@@ -5,17 +5,22 @@
 //! equations. Both give each chunk a [`Meaning`], which [`assemble`] puts
 //! together.
 
+mod answer;
 mod assemble;
 mod composed;
 mod grounder;
 mod meaning;
 pub mod paper;
+mod readings;
+mod settings;
 mod stage;
 mod table;
 mod words;
 
+pub use answer::answer;
 pub use assemble::assemble;
 pub use grounder::{Grounder, Method};
-pub use meaning::Meaning;
+pub use meaning::{Kind, Meaning, meaning_of_label};
+pub use settings::{MethodName, Settings, SettingsError};
 pub use stage::GroundStage;
-pub use words::{ChunkWords, chunk_words};
+pub use words::{ChunkWords, chunk_words, chunk_words_of};

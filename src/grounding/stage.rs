@@ -1,20 +1,32 @@
 //! `ground` as a stage of the pipeline.
 
-use super::Grounder;
 use super::table::table;
-use crate::record::{Chunk, Grounding, Note, Record, Stage, StageError};
+use super::{Grounder, answer};
+use crate::record::{Chunk, Grounding, Note, Record, Stage, StageError, Token};
 
 /// Adds `grounding` to records.
 #[derive(Clone, Debug)]
-pub struct GroundStage(pub Grounder);
+pub struct GroundStage {
+    /// How descriptions are grounded.
+    pub grounder: Grounder,
+    /// The reply to the question of an earlier run.
+    pub answer: Option<String>,
+}
 
 impl Stage for GroundStage {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
         let text: String = record.require("text", "a record needs the description under this key")?;
         let chunks: Vec<Chunk> = record.require("chunks", "pipe the record through `chunk` first")?;
         check_spans(&text, &chunks)?;
-        record.set("grounding", &self.0.ground(&text, &chunks));
-        Ok(Note::Done)
+        let wants = self.grounder.wants_tokens();
+        let tokens: Vec<Token> = if wants { record.get("tokens")?.unwrap_or_default() } else { Vec::new() };
+        let mut grounding = self.grounder.ground(&text, &tokens, &chunks);
+        let reply = self.answer.as_ref();
+        let unused = reply.filter(|reply| !answer(&mut grounding, reply, self.grounder.lexicon()));
+        record.set("grounding", &grounding);
+        Ok(unused.map_or(Note::Done, |reply| {
+            Note::Lossy(format!("the answer \"{reply}\" names no room, side, furniture or object; say one of them"))
+        }))
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {

@@ -27,7 +27,8 @@ pub fn table(text: &str, grounding: &Grounding) -> String {
 
 fn describe(node: &Node) -> String {
     let attributes: String = node.attributes.iter().map(|a| format!("{a} ")).collect();
-    let target = node.target.as_deref().map_or("–".to_string(), |target| format!("{attributes}{target}"));
+    let ordinal = node.ordinal.map(|n| format!("no. {n} ")).unwrap_or_default();
+    let target = node.target.as_deref().map_or("–".to_string(), |target| format!("{ordinal}{attributes}{target}"));
     let pairs: Vec<String> =
         node.pairs.iter().map(|pair| format!("{} ({})", pair.phrase(), pair.frame.name())).collect();
     format!("{target}: {}", if pairs.is_empty() { "anywhere".to_string() } else { pairs.join(", ") })

@@ -22,7 +22,11 @@ pub struct ChunkWords<'t> {
 
 /// All chunks in pre-order. Spans that do not fit the text get no words.
 pub fn chunk_words<'t>(text: &'t str, chunks: &[Chunk]) -> Vec<ChunkWords<'t>> {
-    let words = tokenize(text);
+    chunk_words_of(&tokenize(text), chunks)
+}
+
+/// The same for a text that has been tokenized.
+pub fn chunk_words_of<'t>(words: &[Word<'t>], chunks: &[Chunk]) -> Vec<ChunkWords<'t>> {
     let mut all = Vec::new();
     // Own stack: a tree from outside may be deeper than the call stack.
     let mut waiting: Vec<(&Chunk, Option<usize>)> = chunks.iter().rev().map(|chunk| (chunk, None)).collect();
@@ -52,6 +56,6 @@ pub fn chunk_words<'t>(text: &'t str, chunks: &[Chunk]) -> Vec<ChunkWords<'t>> {
 impl ChunkWords<'_> {
     /// The own words in lower case, joined by spaces.
     pub fn lower(&self) -> String {
-        self.words.iter().map(|word| word.lower.as_str()).collect::<Vec<_>>().join(" ")
+        self.words.iter().map(|word| word.lower.as_ref()).collect::<Vec<_>>().join(" ")
     }
 }

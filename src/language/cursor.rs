@@ -31,6 +31,9 @@ pub struct NounPhrase {
 /// Most words before a noun: longer runs are no noun phrase.
 const MOST_MODIFIERS: usize = 8;
 
+/// Longest run of words of one kind that a pattern steps over: keeps reading linear in nonsense as well.
+const LONGEST_RUN: usize = 24;
+
 /// A position-wise reader of units; positions past the end answer as if empty.
 #[derive(Clone, Copy)]
 pub struct Cursor<'u> {
@@ -55,7 +58,7 @@ impl<'u> Cursor<'u> {
     }
 
     pub(super) fn lower(&self, at: usize) -> &'u str {
-        self.units.get(at).map_or("", |unit| unit.lower.as_str())
+        self.units.get(at).map_or("", |unit| unit.lower.as_ref())
     }
 
     pub(super) fn is(&self, at: usize, words: &[&str]) -> bool {
@@ -72,7 +75,8 @@ impl<'u> Cursor<'u> {
 
     /// The first position from `at` on whose role is none of `roles`.
     pub(super) fn skip(&self, mut at: usize, roles: &[Role]) -> usize {
-        while self.role(at).is_some_and(|role| roles.contains(&role)) {
+        let limit = at + LONGEST_RUN;
+        while at < limit && self.role(at).is_some_and(|role| roles.contains(&role)) {
             at += 1;
         }
         at
@@ -85,6 +89,10 @@ impl<'u> Cursor<'u> {
             at += 1;
         }
         if self.class(at).is_none() {
+            // "The object" names nothing, but is a noun.
+            if unknown && self.role(at) == Some(Role::Generic) {
+                return Some(NounPhrase { first, head: at, past: at + 1 });
+            }
             let head = at.checked_sub(1).filter(|&head| unknown && head >= first && self.is_unknown(head))?;
             return Some(NounPhrase { first, head, past: at });
         }
@@ -104,7 +112,7 @@ impl<'u> Cursor<'u> {
                     || self.role(at + 1) == Some(Role::Adjective)
                     || self.role(at + 1) == Some(Role::Side)
             }
-            Some(Role::Adverb) => self.is(at, &["very"]),
+            Some(Role::Adverb) => self.is(at, &["very", "immediate"]),
             Some(Role::There) => false,
             _ => self.is_unknown(at) || self.is(at, &["'s"]) && at > 0 && self.is_unknown(at - 1),
         }
@@ -173,7 +181,8 @@ fn reading_of(name: &str) -> Option<Relation> {
 
 /// The relation a phrase's words begin with, for grounding.
 pub fn leading_relation(units: &[Unit]) -> Option<Relation> {
-    Cursor::new(units).relation(0).map(|(relation, _)| relation)
+    let cursor = Cursor::new(units);
+    cursor.relation(cursor.skip(0, &[Role::Adverb])).map(|(relation, _)| relation)
 }
 
 #[cfg(test)]

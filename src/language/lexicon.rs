@@ -1,6 +1,7 @@
 //! The words the robot knows: data in `corpus/lexicon/`, one line a word.
 
 use std::collections::HashMap;
+use std::path::Path;
 use std::sync::OnceLock;
 
 /// What kind of thing a noun names.
@@ -106,6 +107,7 @@ pub enum Role {
     There,
     Lying,
     Adverb,
+    Generic,
 }
 
 impl Role {
@@ -147,6 +149,7 @@ impl Role {
             "there" => Self::There,
             "lying" => Self::Lying,
             "adverb" => Self::Adverb,
+            "generic" => Self::Generic,
             _ => return None,
         })
     }
@@ -160,6 +163,10 @@ pub struct Noun {
     /// What kind of thing it names.
     pub class: Class,
 }
+
+/// Shorter words are too near to too many others to be taken for misspelt.
+const LETTERS_FOR_ONE_EDIT: usize = 5;
+const LETTERS_FOR_TWO_EDITS: usize = 9;
 
 /// A line of a lexicon file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -180,7 +187,8 @@ pub struct Lexicon {
     /// From the words of a name, joined by spaces, to its noun.
     names: HashMap<String, usize>,
     words: HashMap<String, (String, Role)>,
-    longest: usize,
+    /// From the first word of names of several words to the number of words in the longest.
+    starts: HashMap<String, usize>,
 }
 
 impl Lexicon {
@@ -196,8 +204,18 @@ impl Lexicon {
         })
     }
 
-    /// Adds nouns: lines of `name TAB class [TAB other, names]`; `#` begins a comment.
+    /// Adds nouns: lines of `name TAB class [TAB other, names]`; `#` begins a comment. A name that is known is refused.
     pub fn add_nouns(&mut self, text: &str, file: &str) -> Result<(), LexiconError> {
+        self.read_nouns(text, file, false)
+    }
+
+    /// Adds a user's nouns: the same lines, and a name that is known from before gets the new meaning.
+    pub fn extend_nouns(&mut self, text: &str, file: &str) -> Result<(), LexiconError> {
+        self.read_nouns(text, file, true)
+    }
+
+    fn read_nouns(&mut self, text: &str, file: &str, replace: bool) -> Result<(), LexiconError> {
+        let known = self.nouns.len();
         for (line, fields) in lines(text) {
             let wrong = |message: String| LexiconError { file: file.to_string(), line, message };
             let (Some(name), Some(class)) = (fields.first(), fields.get(1)) else {
@@ -208,17 +226,23 @@ impl Lexicon {
             let class = if *name == "wall" { Class::Wall } else { class };
             let index = self.nouns.len();
             self.nouns.push(Noun { name: (*name).to_string(), class });
-            let others = fields.get(2).map_or("", |others| *others).split(',');
-            for other in
-                others.map(str::trim).filter(|other| !other.is_empty()).chain([name.replace('_', " ").as_str()])
-            {
-                if self.names.insert(other.to_string(), index).is_some_and(|old| old != index) {
+            let others = fields.get(2).map_or("", |others| *others).split(',').map(str::trim);
+            for other in others.filter(|other| !other.is_empty()).chain([name.replace('_', " ").as_str()]) {
+                let old = self.names.insert(other.to_string(), index).filter(|old| *old != index);
+                if old.is_some_and(|old| !replace || old >= known) {
                     return Err(wrong(format!("`{other}` already names another noun")));
                 }
-                self.longest = self.longest.max(other.split(' ').count());
+                self.note_start(other);
             }
         }
         Ok(())
+    }
+
+    fn note_start(&mut self, name: &str) {
+        if let Some((start, rest)) = name.split_once(' ') {
+            let longest = self.starts.entry(start.to_string()).or_default();
+            *longest = (*longest).max(1 + rest.split(' ').count());
+        }
     }
 
     /// Adds other words: lines of `word TAB part of speech TAB role`.
@@ -262,15 +286,50 @@ impl Lexicon {
         self.words.get(lower).map(|(pos, role)| (pos.as_str(), *role))
     }
 
-    /// Words in the longest name.
-    pub fn longest_name(&self) -> usize {
-        self.longest
+    /// Words in the longest name that begins with this word; 1 when none of several words does.
+    pub fn longest_name_from(&self, start: &str) -> usize {
+        self.starts.get(start).copied().unwrap_or(1)
+    }
+
+    /// The noun that a word misspells: one edit away, or two for a long word; the same first letter; the nearest,
+    /// then the first in the alphabet. Linear in the lexicon, so only for words nothing else explains.
+    pub fn nearest_noun(&self, word: &str) -> Option<&Noun> {
+        let most = if word.chars().count() < LETTERS_FOR_TWO_EDITS { 1 } else { 2 };
+        let first = word.chars().next()?;
+        if word.chars().count() < LETTERS_FOR_ONE_EDIT || !word.chars().all(char::is_alphabetic) {
+            return None;
+        }
+        let near = self.names.keys().filter(|name| name.starts_with(first) && name.len().abs_diff(word.len()) <= most);
+        let near = near.map(|name| (strsim::osa_distance(word, name), name)).filter(|(distance, _)| *distance <= most);
+        near.min().and_then(|(_, name)| self.noun(name))
+    }
+
+    /// Names of rooms: canonical name and every way to say it, in the order of the file.
+    pub fn rooms(&self) -> Vec<(&str, Vec<&str>)> {
+        let rooms = self.nouns.iter().enumerate().filter(|(_, noun)| noun.class == Class::Room);
+        let spoken = |index: usize| {
+            let mut names: Vec<&str> =
+                self.names.iter().filter(|(_, i)| **i == index).map(|(name, _)| name.as_str()).collect();
+            names.sort_unstable();
+            names
+        };
+        rooms.map(|(index, noun)| (noun.name.as_str(), spoken(index))).collect()
     }
 
     /// All nouns.
     pub fn nouns(&self) -> &[Noun] {
         &self.nouns
     }
+}
+
+/// The embedded lexicon with the nouns of a file added; a noun of the file goes before the embedded one.
+pub fn lexicon_with(path: &Path) -> Result<Lexicon, LexiconError> {
+    let file = path.display().to_string();
+    let text = std::fs::read_to_string(path);
+    let text = text.map_err(|error| LexiconError { file: file.clone(), line: 0, message: error.to_string() })?;
+    let mut lexicon = Lexicon::embedded().clone();
+    lexicon.extend_nouns(&text, &file)?;
+    Ok(lexicon)
 }
 
 /// Numbered lines without comments, split at tabs.

@@ -15,6 +15,7 @@ mod lexicon;
 mod object_phrases;
 mod phrases;
 mod place_phrases;
+mod room_pick;
 mod stage;
 pub mod tokens;
 mod tree;
@@ -22,9 +23,9 @@ mod units;
 
 pub use cursor::{Relation, leading_relation};
 pub use draw::draw_tree;
-pub use lexicon::{Class, Lexicon, LexiconError, Noun, Role};
+pub use lexicon::{Class, Lexicon, LexiconError, Noun, Role, lexicon_with};
 pub use stage::Chunker;
-pub use units::{Unit, UnitKind, units};
+pub use units::{Unit, UnitKind, tag as tag_words, units};
 
 use crate::record::{Chunk, Token};
 

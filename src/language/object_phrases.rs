@@ -48,6 +48,10 @@ impl Cursor<'_> {
         }
         let noun = self.noun_phrase(verb, true)?;
         match self.class(noun.head) {
+            // "There is a purse sitting there": company on the same support.
+            Some(Class::Object) if self.is_company(noun) => {
+                Some(Phrase::new(Kind::ObjectMark, at, self.on_it_past(noun.past), "there is another object on it"))
+            }
             Some(Class::Object) | None => Some(Phrase::new(Kind::Object, at, noun.past, "there is the object")),
             Some(class) if class.is_furniture() => Some(Phrase::new(Kind::Target, at, noun.past, "there is furniture")),
             _ => None,
@@ -73,7 +77,13 @@ impl Cursor<'_> {
         }
     }
 
-    fn noun_has_article(&self, first: usize, head: usize) -> bool {
+    fn is_company(&self, noun: super::cursor::NounPhrase) -> bool {
+        let lying = self.skip(noun.past, &[Role::Lying]);
+        let there = lying > noun.past && self.role(lying) == Some(Role::There);
+        self.is(noun.first, &["a", "an", "some"]) && (there || self.on_it_past(noun.past) > noun.past)
+    }
+
+    pub(super) fn noun_has_article(&self, first: usize, head: usize) -> bool {
         first < head && matches!(self.role(first), Some(Role::Determiner | Role::Hearer))
     }
 
@@ -84,7 +94,9 @@ impl Cursor<'_> {
         }
         let past = self.skip(at + 1, &PREDICATE);
         let short = self.is(at, &["its"]) && self.role(at + 1) == Some(Role::Preposition);
-        let place_follows = matches!(self.role(past), Some(Role::Preposition | Role::There | Role::Side | Role::Ahead));
+        let side = |at: usize| self.role(at) == Some(Role::Side) && self.class(at + 1).is_none();
+        let place_follows = matches!(self.role(past), Some(Role::Preposition | Role::There | Role::Side | Role::Ahead))
+            || matches!(self.role(past), Some(Role::Determiner | Role::Hearer)) && side(past + 1);
         let furniture_follows =
             self.noun_phrase(past, false).is_some_and(|n| self.class(n.head).is_some_and(Class::is_furniture));
         (short || past > at + 1 && (place_follows || furniture_follows) && !self.is(at, &["that"]))
@@ -94,7 +106,7 @@ impl Cursor<'_> {
     /// "on the desk is the pad": the subject after its verb.
     fn is_thing(&self, at: usize) -> Option<Phrase> {
         let noun_at = self.skip(at, &PREDICATE);
-        if noun_at == at {
+        if noun_at == at || (at..noun_at).any(|i| self.role(i) == Some(Role::Has) && !self.is(i, &["'ve", "'s"])) {
             return None;
         }
         let noun = self.noun_phrase(noun_at, true)?;

@@ -25,6 +25,8 @@ pub enum Kind {
     ObjectMark,
     /// The head of a clause about the object.
     Object,
+    /// Whose view a direction is said from.
+    Perspective,
     /// A self-correction.
     Correction,
     /// What a correction took back.
@@ -73,7 +75,52 @@ pub fn find(units: &[Unit]) -> Vec<Phrase> {
         }
     }
     take_back_corrected(&mut phrases);
+    continue_moves(&mut phrases, &cursor);
+    rule_out(&mut phrases, &cursor);
     phrases
+}
+
+/// "Not the table by the door": what is ruled out stays in the tree and no longer counts.
+fn rule_out(phrases: &mut [Phrase], cursor: &Cursor) {
+    let mut ruled_to = None;
+    for phrase in phrases.iter_mut() {
+        let place = matches!(
+            phrase.kind,
+            Kind::Turn | Kind::Side | Kind::Part | Kind::Target | Kind::Landmark | Kind::ObjectMark
+        );
+        let negated = (1..=2).any(|back| {
+            phrase.first >= back
+                && cursor.role(phrase.first - back) == Some(Role::Negation)
+                && (back == 1 || cursor.role(phrase.first - 1) == Some(Role::Adverb))
+        });
+        let attached = ruled_to == Some(phrase.first) && phrase.kind != Kind::Target && phrase.kind != Kind::Turn;
+        if place && (negated || attached) {
+            phrase.kind = Kind::Corrected;
+            phrase.inner = None;
+            ruled_to = Some(phrase.past);
+        }
+    }
+}
+
+/// "Go forward and then to the right": a side joined to a move is a move as well.
+fn continue_moves(phrases: &mut [Phrase], cursor: &Cursor) {
+    for at in 1..phrases.len() {
+        let (before, phrase) = (phrases[at - 1], phrases[at]);
+        let moved = matches!(before.kind, Kind::Go | Kind::Turn);
+        let gap = before.past..phrase.first;
+        let joined = gap.clone().any(|i| cursor.role(i) == Some(Role::Conjunction))
+            && gap.clone().all(|i| matches!(cursor.role(i), Some(Role::Conjunction | Role::Adverb)));
+        if !(moved && joined && phrase.kind == Kind::Side) {
+            continue;
+        }
+        let turns = (phrase.first..phrase.past).any(|i| cursor.role(i) == Some(Role::Side));
+        let to_side = (phrase.first..phrase.past).any(|i| cursor.is(i, &["to", "towards", "toward"]));
+        if turns && to_side {
+            phrases[at].kind = Kind::Turn;
+        } else if !turns && cursor.role(phrase.first) == Some(Role::Ahead) {
+            phrases[at].kind = Kind::Go;
+        }
+    }
 }
 
 /// "Turn left, sorry, turn right": the phrase before the correction no longer counts when one of its kind follows.
@@ -86,6 +133,7 @@ fn take_back_corrected(phrases: &mut Vec<Phrase>) {
         let about_place = |kind: Kind| matches!(kind, Kind::Turn | Kind::Side | Kind::Room | Kind::Part);
         let again = phrases[at + 1..]
             .iter()
+            .filter(|next| next.kind != Kind::Go || kind == Kind::Go)
             .take(2)
             .any(|next| next.kind == kind || about_place(kind) && about_place(next.kind));
         if again && !matches!(kind, Kind::Object | Kind::Stop | Kind::Correction) {
@@ -116,6 +164,7 @@ impl Cursor<'_> {
             return Some(Phrase::new(Kind::Stop, at, at + 1, "stop"));
         }
         self.correction(at)
+            .or_else(|| self.perspective(at))
             .or_else(|| self.object_clause(at))
             .or_else(|| self.motion(at))
             .or_else(|| self.turn(at))
@@ -124,8 +173,33 @@ impl Cursor<'_> {
             .or_else(|| self.furniture(at, at))
     }
 
+    /// "As you face it", "when you are looking at the bed", "from your point of view".
+    fn perspective(&self, at: usize) -> Option<Phrase> {
+        if self.is(at, &["from"]) && self.role(at + 1) == Some(Role::Hearer) {
+            let view = self.is(at + 2, &["view", "perspective", "side", "point"]);
+            let of_view = usize::from(self.is(at + 3, &["of"])) * 2;
+            return view.then(|| Phrase::new(Kind::Perspective, at, at + 3 + of_view, "whose view"));
+        }
+        let subject = self.is(at, &["as", "when", "if", "while"]) && self.role(at + 1) == Some(Role::Pronoun);
+        let verb = self.skip(at + 2, &[Role::Copula]);
+        if !subject || !self.is(verb, &["face", "facing", "look", "looking", "looked", "faces", "looks"]) {
+            return None;
+        }
+        let object = verb + 1 + usize::from(self.is(verb + 1, &["at", "in", "toward", "towards"]));
+        // "If you look to your left" is a turn.
+        if self.is(object, &["to", "left", "right", "straight", "down"]) {
+            return None;
+        }
+        let pronoun = usize::from(self.is(object, &["it", "them", "that"]));
+        let past = self.noun_phrase(object, false).map_or(object + pronoun, |noun| noun.past);
+        Some(Phrase::new(Kind::Perspective, at, past, "whose view"))
+    }
+
     fn correction(&self, at: usize) -> Option<Phrase> {
         let past = self.skip(at, &[Role::Correction]);
+        if self.is(at, &["let"]) && self.is(at + 1, &["'s", "me"]) && self.is(at + 2, &["see"]) {
+            return Some(Phrase::new(Kind::Correction, at, at + 3, "thinking aloud"));
+        }
         let pronoun = self.is(at, &["i"]) && self.is(at + 1, &["mean"]);
         match (pronoun, past > at) {
             (true, _) => Some(Phrase::new(Kind::Correction, at, at + 2, "self-correction")),
@@ -136,6 +210,14 @@ impl Cursor<'_> {
 
     /// "go forward", "walk straight about halfway in", "take two steps forward", "go left", "come into the room …".
     fn motion(&self, at: usize) -> Option<Phrase> {
+        if self.role(at) == Some(Role::Until) && at > 0 {
+            return Some(self.until(at, at));
+        }
+        if self.is(at, &["cross", "crosses"])
+            && let Some(room) = self.noun_phrase(at + 1, false).filter(|n| self.class(n.head) == Some(Class::Room))
+        {
+            return Some(Phrase::new(Kind::Part, at, room.past, "cross the room"));
+        }
         let steps = self.role(at) == Some(Role::Turn) && {
             let number = self.skip(at + 1, &[Role::Determiner, Role::Adverb]);
             let after = self.skip(number, &[Role::Number, Role::Preposition]);
@@ -176,11 +258,14 @@ impl Cursor<'_> {
         {
             return room;
         }
+        if let Some(past) = self.part_past(end).filter(|_| !self.is(end, &["through"])) {
+            return Phrase::new(Kind::Go, at, past, "go to a part of the room");
+        }
         if let Some(past) = self.side_past(end, true) {
             return Phrase::new(Kind::Turn, at, past, "go to a side");
         }
         if self.is(end, &["back", "around"])
-            && !self.relation(end).is_some_and(|(_, np)| self.noun_phrase(np, false).is_some())
+            && self.relation(end).is_none_or(|(_, noun)| self.noun_phrase(noun, false).is_none())
         {
             return Phrase::new(Kind::Turn, at, end + 1, "go back");
         }
@@ -204,6 +289,15 @@ impl Cursor<'_> {
             Role::Look,
         ];
         let end = self.skip(until + 1, &SUBJECT_AND_VERB);
+        if self.role(end) == Some(Role::Turn) {
+            return Phrase::new(Kind::Go, at, until.max(at + 1), "go until a turn");
+        }
+        // "until you reach the opposite end", "until you are at the middle of the room".
+        if end > until + 1
+            && let Some(past) = self.part_after(end, end)
+        {
+            return Phrase::new(Kind::Go, at, past, "go until a part of the room");
+        }
         let bare = self.noun_phrase(end, false).filter(|_| end > until + 1);
         if let Some(noun) = bare {
             return match self.class(noun.head) {
@@ -220,8 +314,11 @@ impl Cursor<'_> {
     fn leading_to(&self, at: usize, end: usize) -> Option<Phrase> {
         if let Some((relation, noun)) = self.relation(end)
             && let Some(noun) = self.noun_phrase(noun, false)
-            && self.class(noun.head).is_some_and(Class::is_furniture)
+            && let Some(class) = self.class(noun.head).filter(|class| class.is_furniture() || *class == Class::Object)
         {
+            if class == Class::Object {
+                return Some(Phrase::new(Kind::ObjectMark, at, noun.past, "go to an object").with_inner(at, end));
+            }
             let kind = if let Relation::Landmark(_) = relation { Kind::Landmark } else { Kind::Target };
             let inner_past = if kind == Kind::Target { noun.first } else { end };
             return Some(Phrase::new(kind, at, noun.past, "go to furniture").with_inner(at, inner_past));
@@ -247,6 +344,9 @@ impl Cursor<'_> {
         if looks && self.is(at + 1, &["down"]) {
             return Some(Phrase::new(Kind::Object, at, at + 2, "look down"));
         }
+        if looks && self.is(at + 1, &["around"]) {
+            return Some(Phrase::new(Kind::Go, at, at + 2, "look around"));
+        }
         if self.is(at + 1, &["around", "back"])
             && self.noun_phrase(at + 2, false).is_none_or(|noun| noun.first == noun.head)
         {
@@ -257,7 +357,10 @@ impl Cursor<'_> {
             side += 1;
         }
         if self.role(side) == Some(Role::Side) && self.class(side + 1).is_none() {
-            let past = self.skip(side + 1, &[Role::SideWord, Role::Turn, Role::Again, Role::Number, Role::DegreeUnit]);
+            let hand = self.skip(side + 1, &[Role::SideWord]);
+            // "a left turn"; but in "turn right turn left" the second turn is its own.
+            let turn = usize::from(self.is(hand, &["turn"]) && self.role(hand + 1) != Some(Role::Side));
+            let past = self.skip(hand + turn, &[Role::Again, Role::Number, Role::DegreeUnit]);
             return Some(Phrase::new(Kind::Turn, at, past, "turn"));
         }
         let wall = looks.then(|| self.noun_phrase(at + 1, false)).flatten();
@@ -279,6 +382,8 @@ impl Cursor<'_> {
             Role::Ordinal,
         ];
         self.role(at).is_some_and(|role| BEFORE.contains(&role))
+            // "take a le right": a word broken off.
+            || self.is_unknown(at) && self.role(at - 1) == Some(Role::Determiner) && self.role(at + 1) == Some(Role::Side)
             || self.is(at, &["to", "towards", "toward", "sharp", "instant", "hard", "degrees", "then", "off"])
     }
 }

@@ -1,11 +1,15 @@
 //! `chunk` as a stage of the pipeline.
 
-use super::{chunk_text, draw_tree};
+use std::sync::Arc;
+
+use super::{Lexicon, chunk_with, draw_tree};
 use crate::record::{Chunk, Note, Record, Stage, StageError};
 
 /// Adds `tokens` and `chunks` to records.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Chunker {
+    /// The words it knows; the embedded lexicon when none is given.
+    pub lexicon: Option<Arc<Lexicon>>,
     /// Names the rule behind each chunk.
     pub explain: bool,
 }
@@ -13,7 +17,7 @@ pub struct Chunker {
 impl Stage for Chunker {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
         let text: String = record.require("text", "a record needs the description under this key")?;
-        let (tokens, mut chunks) = chunk_text(&text);
+        let (tokens, mut chunks) = chunk_with(&text, self.lexicon.as_deref().unwrap_or(Lexicon::embedded()));
         if !self.explain {
             chunks.iter_mut().for_each(forget_rules);
         }

@@ -1,12 +1,14 @@
 //! Words and where they stand: bytes are never changed, only pointed at.
 
+use std::borrow::Cow;
+
 /// A word of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Word<'t> {
     /// As it stands in the text.
     pub text: &'t str,
     /// In lower case, with a straight apostrophe.
-    pub lower: String,
+    pub lower: Cow<'t, str>,
     /// First byte.
     pub start: usize,
     /// One past the last byte.
@@ -70,8 +72,12 @@ fn push<'t>(text: &'t str, start: usize, end: usize, words: &mut Vec<Word<'t>>) 
     words.push(Word { text: &text[start..end], lower: lowered(&text[start..end]), start, end });
 }
 
-fn lowered(word: &str) -> String {
-    word.to_lowercase().replace('’', "'")
+/// Borrowed where nothing changes: most speech comes in lower case.
+fn lowered(word: &str) -> Cow<'_, str> {
+    if word.bytes().all(|byte| byte.is_ascii() && !byte.is_ascii_uppercase()) {
+        return Cow::Borrowed(word);
+    }
+    Cow::Owned(word.to_lowercase().replace('’', "'"))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Phrases nested under the nine tags.
 
 use super::phrases::{Kind, Phrase};
+use super::room_pick::{self, RoomPick, is_lead};
 use super::tokens::Word;
 use super::units::Unit;
 use crate::record::{Chunk, Tag};
@@ -36,75 +37,18 @@ impl Node {
 /// The chunk tree of a description.
 pub fn build(phrases: &[Phrase], units: &[Unit], words: &[Word]) -> Vec<Chunk> {
     let mut builder = Builder { roots: Vec::new(), object: None, target: None };
-    let room = pick_room(phrases);
+    let picked = room_pick::pick(phrases, units);
     for (i, phrase) in phrases.iter().enumerate() {
-        match room {
-            Some(ref pick) if i < pick.first || i > pick.first && i <= pick.last => {
-                if i < pick.first && !is_lead(phrase) {
-                    builder.add(phrase);
-                }
-            }
+        match picked {
             Some(ref pick) if i == pick.first => builder.add_room(pick, phrases),
+            Some(ref pick) if pick.covers(i) => {}
+            // Motions before the room is entered lead to it and make nothing of their own.
+            Some(ref pick) if i < pick.first && (is_lead(phrase) || pick.on_the_way.contains(&i)) => {}
+            Some(ref pick) if pick.restated.contains(&i) => builder.restate_room(phrase),
             _ => builder.add(phrase),
         }
     }
     builder.finish().into_iter().map(|node| chunk(node, units, words)).collect()
-}
-
-/// The phrases that pick the room.
-struct RoomPick {
-    /// The phrase that says which.
-    first: usize,
-    /// The last phrase that still belongs to it: "… into the room".
-    last: usize,
-}
-
-fn is_lead(phrase: &Phrase) -> bool {
-    matches!(phrase.kind, Kind::Go | Kind::Turn)
-}
-
-/// Which phrase picks the room: a room named with its side; else the last turn before a room is entered; else the
-/// first turn or side said at all.
-fn pick_room(phrases: &[Phrase]) -> Option<RoomPick> {
-    let inside =
-        phrases.iter().position(|p| matches!(p.kind, Kind::Target | Kind::Landmark | Kind::Part | Kind::ObjectMark));
-    let before_inside = |i: &usize| inside.is_none_or(|limit| *i < limit);
-    let turns_to = |p: &Phrase| matches!(p.kind, Kind::Turn | Kind::Side);
-    let room = (0..phrases.len()).filter(before_inside).find(|&i| phrases[i].kind == Kind::Room);
-    let sided =
-        (0..phrases.len()).filter(before_inside).find(|&i| phrases[i].kind == Kind::Room && phrases[i].inner.is_some());
-    let first_turn = (0..phrases.len()).find(|&i| turns_to(&phrases[i]));
-    let with_rooms = |first: usize| {
-        let last = (first + 1..phrases.len()).take_while(|&i| phrases[i].kind == Kind::Room).last().unwrap_or(first);
-        Some(RoomPick { first, last })
-    };
-    if let Some(first) = sided.filter(|&s| room.is_some_and(|r| (r..s).all(|i| !turns_to(&phrases[i]) || i < r))) {
-        return with_rooms(first);
-    }
-    if let Some(room) = room {
-        let turn = (0..room).rev().find(|&i| turns_to(&phrases[i]));
-        return match turn {
-            Some(turn)
-                if phrases[turn..room]
-                    .iter()
-                    .all(|p| matches!(p.kind, Kind::Turn | Kind::Side | Kind::Go | Kind::Stop)) =>
-            {
-                let adjacent = turn + 1 == room;
-                if adjacent { with_rooms(turn) } else { Some(RoomPick { first: turn, last: turn }) }
-            }
-            _ if phrases[room].inner.is_none() => named_then_side(phrases, room).or_else(|| with_rooms(room)),
-            _ => with_rooms(room),
-        };
-    }
-    let turn = first_turn?;
-    // "on the table to the right": beside furniture a side is a place, unless nothing else picks the room.
-    let beside = phrases[..turn].iter().any(|p| matches!(p.kind, Kind::Target | Kind::Landmark));
-    if phrases[turn].kind == Kind::Side && beside { None } else { with_rooms(turn) }
-}
-
-/// "in the room … (it is) on the left": a lone side right after a room without one.
-fn named_then_side(phrases: &[Phrase], room: usize) -> Option<RoomPick> {
-    (phrases.get(room + 1)?.kind == Kind::Side).then_some(RoomPick { first: room, last: room + 1 })
 }
 
 struct Builder {
@@ -130,13 +74,19 @@ impl Builder {
                 }
                 self.attach(node);
             }
-            Kind::ObjectMark => self.attach(Node::new(Tag::Obrp, phrase)),
+            Kind::ObjectMark => {
+                if phrase.inner.is_some() {
+                    self.close_object();
+                }
+                self.attach(Node::new(Tag::Obrp, phrase).with_child(Tag::Irmrp, phrase.inner));
+            }
             Kind::Object => {
                 self.close_object();
                 self.object = Some(Node::new(Tag::Obtp, phrase));
             }
             Kind::Room => self.attach(Node::new(Tag::Ormtp, phrase).with_child(Tag::Ormrp, phrase.inner)),
             Kind::Corrected => self.attach(Node::new(Tag::Conf, phrase)),
+            Kind::Perspective => self.attach(Node::new(Tag::Pers, phrase)),
             Kind::Correction => {}
         }
     }
@@ -160,6 +110,12 @@ impl Builder {
         }
         self.close_target();
         self.attach(node);
+    }
+
+    /// The room said once more: "… on your right. So take a right into the room".
+    fn restate_room(&mut self, phrase: &Phrase) {
+        let inner = if phrase.kind == Kind::Room { phrase.inner } else { Some((phrase.first, phrase.past)) };
+        self.attach(Node::new(Tag::Ormtp, phrase).with_child(Tag::Ormrp, inner));
     }
 
     fn open_target(&mut self, phrase: &Phrase) {

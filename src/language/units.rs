@@ -1,5 +1,7 @@
 //! The longest entries of the lexicon in the text, fillers set aside.
 
+use std::borrow::Cow;
+
 use super::lexicon::{Class, Lexicon, Role};
 use super::tokens::Word;
 use crate::record::Token;
@@ -12,7 +14,7 @@ pub struct Unit<'t> {
     /// One past the last word.
     pub past: usize,
     /// Its words in lower case, joined by spaces.
-    pub lower: String,
+    pub lower: Cow<'t, str>,
     /// What it is.
     pub kind: UnitKind<'t>,
 }
@@ -49,7 +51,7 @@ impl Unit<'_> {
 }
 
 /// The units of a text without fillers, addressees and light punctuation; linear in its length.
-pub fn units<'l>(words: &[Word], lexicon: &'l Lexicon) -> Vec<Unit<'l>> {
+pub fn units<'l>(words: &[Word<'l>], lexicon: &'l Lexicon) -> Vec<Unit<'l>> {
     let mut units: Vec<Unit> = Vec::with_capacity(words.len());
     let mut at = 0;
     while at < words.len() {
@@ -63,27 +65,40 @@ pub fn units<'l>(words: &[Word], lexicon: &'l Lexicon) -> Vec<Unit<'l>> {
     units
 }
 
-fn longest<'l>(words: &[Word], at: usize, lexicon: &'l Lexicon) -> Unit<'l> {
-    let most = lexicon.longest_name().min(words.len() - at);
+fn longest<'l>(words: &[Word<'l>], at: usize, lexicon: &'l Lexicon) -> Unit<'l> {
+    let most = lexicon.longest_name_from(&words[at].lower).min(words.len() - at);
     for count in (2..=most).rev() {
-        let joined = words[at..at + count].iter().map(|word| word.lower.as_str()).collect::<Vec<_>>().join(" ");
+        let joined = words[at..at + count].iter().map(|word| word.lower.as_ref()).collect::<Vec<_>>().join(" ");
         if let Some(noun) = lexicon.noun(&joined) {
-            return Unit { first: at, past: at + count, lower: joined, kind: UnitKind::Noun(&noun.name, noun.class) };
+            let kind = UnitKind::Noun(&noun.name, noun.class);
+            return Unit { first: at, past: at + count, lower: Cow::Owned(joined), kind };
         }
     }
-    let lower = words[at].lower.clone();
-    let kind = if let Some((_, role)) = lexicon.word(&lower) {
-        UnitKind::Word(role)
-    } else if let Some(noun) = lexicon.noun(&lower) {
-        UnitKind::Noun(&noun.name, noun.class)
-    } else if lower.chars().all(|c| c.is_ascii_digit()) {
-        UnitKind::Word(Role::Number)
-    } else if matches!(lower.as_str(), "." | "!" | "?" | ";") {
-        UnitKind::Stop
-    } else {
-        UnitKind::Unknown
-    };
-    Unit { first: at, past: at + 1, lower, kind }
+    let before = at.checked_sub(1).map_or("", |before| words[before].lower.as_ref());
+    Unit { first: at, past: at + 1, lower: words[at].lower.clone(), kind: kind_of(&words[at].lower, before, lexicon) }
+}
+
+/// Words after which a noun may stand: only there is a misspelt noun looked for.
+const BEFORE_NOUN: [&str; 16] = [
+    "the", "a", "an", "my", "your", "his", "her", "their", "our", "its", "this", "that", "two", "small", "little",
+    "big",
+];
+
+fn kind_of<'l>(lower: &str, before: &str, lexicon: &'l Lexicon) -> UnitKind<'l> {
+    if let Some((_, role)) = lexicon.word(lower) {
+        return UnitKind::Word(role);
+    }
+    if let Some(noun) = lexicon.noun(lower) {
+        return UnitKind::Noun(&noun.name, noun.class);
+    }
+    if lower.bytes().all(|c| c.is_ascii_digit()) {
+        return UnitKind::Word(Role::Number);
+    }
+    if matches!(lower, "." | "!" | "?" | ";") {
+        return UnitKind::Stop;
+    }
+    let misspelt = BEFORE_NOUN.contains(&before).then(|| lexicon.nearest_noun(lower)).flatten();
+    misspelt.map_or(UnitKind::Unknown, |noun| UnitKind::Noun(&noun.name, noun.class))
 }
 
 /// Fillers say nothing; an addressee does only in "brian 's left", where the clitic goes with it.
@@ -102,31 +117,34 @@ const AFTER_EMPHASIS: [&str; 22] = [
 /// "right on the table" is emphasis; "i left my keys" is a verb.
 fn settle_ambiguous(units: &mut [Unit]) {
     for i in 0..units.len() {
-        let before = i.checked_sub(1).map(|b| (units[b].role(), units[b].lower.clone()));
-        let role_before = before.as_ref().and_then(|(role, _)| *role);
-        let next = units.get(i + 1).map(|unit| unit.lower.clone()).unwrap_or_default();
-        let leads = matches!(
-            role_before,
-            Some(
-                Role::Determiner
-                    | Role::Hearer
-                    | Role::Turn
-                    | Role::Motion
-                    | Role::Look
-                    | Role::Preposition
-                    | Role::Adjective
-            )
-        );
-        if units[i].lower == "right" && !leads && AFTER_EMPHASIS.contains(&next.as_str()) {
-            units[i].kind = UnitKind::Word(Role::Adverb);
+        let side = matches!(units[i].lower.as_ref(), "right" | "left");
+        if !side {
+            continue;
         }
+        let before = i.checked_sub(1).map(|before| &units[before]);
+        let next = units.get(i + 1).map_or("", |unit| unit.lower.as_ref());
+        let leads = before.and_then(Unit::role).is_some_and(|role| BEFORE_SIDE.contains(&role));
         let after_subject =
-            matches!(before.as_ref().map(|(_, word)| word.as_str()), Some("i" | "we" | "he" | "she" | "they"));
-        if units[i].lower == "left" && after_subject {
+            before.is_some_and(|unit| matches!(unit.lower.as_ref(), "i" | "we" | "he" | "she" | "they"));
+        if units[i].lower == "right" && !leads && AFTER_EMPHASIS.contains(&next) {
+            units[i].kind = UnitKind::Word(Role::Adverb);
+        } else if units[i].lower == "left" && after_subject {
             units[i].kind = UnitKind::Word(Role::Bring);
         }
     }
 }
+
+/// Words after which "right" is a side.
+const BEFORE_SIDE: [Role; 8] = [
+    Role::Determiner,
+    Role::Hearer,
+    Role::Turn,
+    Role::Motion,
+    Role::Look,
+    Role::Preposition,
+    Role::Adjective,
+    Role::Part,
+];
 
 /// Part-of-speech tags for all words: from the lexicon, else by the word's look.
 pub fn tag(words: &[Word], units: &[Unit], lexicon: &Lexicon) -> Vec<Token> {
@@ -158,7 +176,7 @@ fn guess<'l>(word: &Word, lexicon: &'l Lexicon) -> &'l str {
     if let Some((pos, _)) = lexicon.word(&word.lower) {
         return pos;
     }
-    let lower = word.lower.as_str();
+    let lower = word.lower.as_ref();
     match lower {
         _ if !lower.chars().any(char::is_alphanumeric) => ".",
         _ if lower.chars().all(|c| c.is_ascii_digit()) => "CD",
@@ -176,7 +194,7 @@ mod tests {
     use crate::language::tokens::tokenize;
 
     fn lowers(text: &str) -> Vec<String> {
-        units(&tokenize(text), Lexicon::embedded()).into_iter().map(|unit| unit.lower).collect()
+        units(&tokenize(text), Lexicon::embedded()).into_iter().map(|unit| unit.lower.into_owned()).collect()
     }
 
     #[test]

@@ -3,7 +3,14 @@
 //! The executive sees only [`Eyes`]. [`truth`] is the ideal pair of eyes; it is
 //! the one place here that may look at the scene.
 
+mod classify;
+mod floor_grid;
+mod frame;
+mod rectangle;
+mod stage;
 pub mod truth;
+
+pub use stage::Perceiver;
 
 use crate::geometry::Pose;
 use crate::record::Detection;

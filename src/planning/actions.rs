@@ -79,7 +79,7 @@ fn motion(pair: &Pair, has_target: bool, ends_here: bool, lexicon: &Lexicon) -> 
         ("wall", Direction::Side) => {
             Some(Action::Move { direction: Direction::Front, amount: Some(Amount::Until("wall".to_string())) })
         }
-        ("room" | "wall" | "door", direction) => Some(go(&pair.reference, direction, pair, lexicon)),
+        // The last place said is where to look; one said before other steps is gone to.
         _ if ends_here => None,
         (_, direction) => Some(go(&pair.reference, direction, pair, lexicon)),
     }
@@ -92,14 +92,8 @@ fn go(reference: &str, direction: Direction, pair: &Pair, lexicon: &Lexicon) -> 
 /// Furniture on the way: it is passed, not searched.
 fn waypoint(target: &str, lexicon: &Lexicon) -> Action {
     let direction = Direction::Side;
-    let pair = Pair {
-        reference: target.to_string(),
-        direction,
-        frame: Frame::Viewer,
-        and: None,
-        amount: None,
-        ordinal: None,
-    };
+    let pair =
+        Pair { reference: target.to_string(), direction, frame: Frame::Viewer, and: None, amount: None, ordinal: None };
     go(target, direction, &pair, lexicon)
 }
 

@@ -32,8 +32,14 @@ mod tests {
     use crate::record::Direction;
 
     fn frames(reference: &str, frame: Frame) -> Vec<Frame> {
-        let pair =
-            Pair { reference: reference.to_string(), direction: Direction::Left, frame, and: None, amount: None, ordinal: None };
+        let pair = Pair {
+            reference: reference.to_string(),
+            direction: Direction::Left,
+            frame,
+            and: None,
+            amount: None,
+            ordinal: None,
+        };
         frames_to_try(&pair, Lexicon::embedded())
     }
 

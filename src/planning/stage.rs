@@ -30,7 +30,10 @@ impl Planner {
             actions.extend(actions_for(&grounding.nodes, object, self.lexicon));
         }
         if grounding.room.is_none() && grounding.object.is_none() && grounding.nodes.is_empty() {
-            problems.push("nothing was understood of where to go or what to find; name a room, a piece of furniture or an object".to_string());
+            problems.push(
+                "nothing was understood of where to go or what to find; name a room, a piece of furniture or an object"
+                    .to_string(),
+            );
             actions.clear();
         }
         Plan { map: self.map.name.clone(), room: choice.room, actions, problems }
@@ -82,7 +85,9 @@ fn sentence(action: &Action) -> String {
             let place = if pairs.is_empty() { String::new() } else { format!(": {}", pairs.join(", then ")) };
             format!("search {}{target}{place}", attributes.iter().map(|a| format!("{a} ")).collect::<String>())
         }
-        Action::Find { object } => format!("find {}", object.as_deref().map_or("any portable object".to_string(), words)),
+        Action::Find { object } => {
+            format!("find {}", object.as_deref().map_or("any portable object".to_string(), words))
+        }
     }
 }
 

@@ -80,7 +80,10 @@ fn first_meeting(scene: &SolidScene, ray: &Ray, near: f64) -> Option<Meeting> {
     if let Some((distance, wall)) = scene.wall_before(ray, limit) {
         let (a, b) = scene.walls[wall];
         let along = (b - a).normalize();
-        best = Some(Meeting { distance, surface: Surface::Wall(wall), color: WALL, normal: [along.y, -along.x, 0.0] });
+        // Two rooms share a wall: what is seen is always the side turned to the camera.
+        let side = if along.y * ray.direction.x - along.x * ray.direction.y > 0.0 { -1.0 } else { 1.0 };
+        let normal = [side * along.y, -side * along.x, 0.0];
+        best = Some(Meeting { distance, surface: Surface::Wall(wall), color: WALL, normal });
     }
     let to_floor = -ray.height / ray.climb;
     if ray.climb < 0.0 && best.as_ref().is_none_or(|m| to_floor < m.distance) {

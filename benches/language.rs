@@ -1,0 +1,25 @@
+//! How fast descriptions are read and grounded, on one core.
+
+use spatial_fetch::grounding::{Grounder, Method};
+use spatial_fetch::language::chunk_text;
+
+const SPOKEN: &str = "ok um drive straight ahead and take a right into the first room there then walk about halfway in \
+    and um turn to your left you 'll see a small round table next to the bed the remote should be sitting on that table";
+
+fn main() {
+    divan::main();
+}
+
+#[divan::bench]
+fn chunk(bencher: divan::Bencher) {
+    bencher.counter(divan::counter::ItemsCount::new(1_usize)).bench(|| chunk_text(divan::black_box(SPOKEN)));
+}
+
+#[divan::bench(args = [false, true])]
+fn ground(bencher: divan::Bencher, brief: bool) {
+    let (tokens, chunks) = chunk_text(SPOKEN);
+    let grounder = Grounder::new(Method::Composed, brief);
+    bencher
+        .counter(divan::counter::ItemsCount::new(1_usize))
+        .bench(|| grounder.ground(divan::black_box(SPOKEN), &tokens, &chunks));
+}

@@ -1,0 +1,46 @@
+//! Groundings in, plans for one room map out.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
+use spatial_fetch::planning::Planner;
+use spatial_fetch::record::Plan;
+use spatial_fetch::world::RoomMap;
+
+/// Turns what was understood into actions on a room map: enter the room, navigate inside it, find the object.
+///
+/// Reads records that `ground` has read and adds "plan".
+#[derive(Parser)]
+#[command(
+    name = "plan",
+    version,
+    after_help = "Example:\n  echo 'the mug is in the bedroom on the table' | chunk | ground | plan --format text"
+)]
+struct Arguments {
+    /// Room map [default: the apartment]
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+    #[command(flatten)]
+    common: Common,
+}
+
+impl Program for Arguments {
+    const NAME: &'static str = "plan";
+    fn common(&self) -> &Common {
+        &self.common
+    }
+    fn schema() -> schemars::Schema {
+        schemars::schema_for!(Plan)
+    }
+    fn run(self) -> Result<Exit, Failure> {
+        let map = self.map.map_or_else(|| Ok(RoomMap::apartment()), |path| RoomMap::load(&path));
+        let planner = Planner::new(map.map_err(|error| Failure::Failed(error.to_string()))?);
+        cli::run_filter(Self::NAME, &self.common, Intake::Records, &planner)
+    }
+}
+
+fn main() -> ExitCode {
+    cli::main::<Arguments>()
+}

@@ -1,0 +1,212 @@
+//! The way of one trial through the home, as in the paper's Fig. 6.
+
+use std::fmt::Write;
+
+use crate::geometry::{Pose, Vec2};
+
+/// Pixels a metre.
+const SCALE: f64 = 56.0;
+/// Pixels around the rooms.
+const MARGIN: f64 = 24.0;
+/// Pixels above them, for the sentence.
+const TITLE: f64 = 30.0;
+/// Characters a line of the title holds, for a metre of width.
+const TITLE_CHARACTERS_PER_M: f64 = 8.6;
+
+/// A labelled outline, metres.
+#[derive(Clone, Debug)]
+pub struct Outline {
+    /// What is written in it.
+    pub label: String,
+    /// Its corners.
+    pub corners: Vec<Vec2>,
+    /// Whether the object was found on it.
+    pub found: bool,
+}
+
+/// What a plot shows.
+#[derive(Clone, Debug, Default)]
+pub struct Plot {
+    /// The sentence.
+    pub title: String,
+    /// How it ended.
+    pub caption: String,
+    /// Names and middles of the rooms.
+    pub rooms: Vec<(String, Vec2)>,
+    /// The walls.
+    pub walls: Vec<(Vec2, Vec2)>,
+    /// The furniture.
+    pub furniture: Vec<Outline>,
+    /// Where the robot was, half a second apart.
+    pub path: Vec<Pose>,
+    /// Where the object was found.
+    pub found_at: Option<Vec2>,
+}
+
+struct Canvas {
+    svg: String,
+    low: Vec2,
+    high: Vec2,
+    top: f64,
+}
+
+impl Plot {
+    /// The plot as an SVG document; the same plot gives the same bytes.
+    pub fn to_svg(&self) -> String {
+        let (low, high) = self.bounds();
+        let per_line = ((high.x - low.x) * TITLE_CHARACTERS_PER_M).max(20.0) as usize;
+        let title = wrapped(&self.title, per_line);
+        let mut canvas = Canvas { svg: String::new(), low, high, top: MARGIN + TITLE + 20.0 * title.len() as f64 };
+        canvas.open(&self.title);
+        canvas.title(&title, &self.caption);
+        for outline in &self.furniture {
+            canvas.furniture(outline);
+        }
+        for (name, middle) in &self.rooms {
+            canvas.text(*middle, &name.replace('_', " "), "room");
+        }
+        for (a, b) in &self.walls {
+            canvas.line(*a, *b, "wall");
+        }
+        canvas.path(&self.path);
+        if let Some(point) = self.found_at {
+            canvas.star(point);
+        }
+        canvas.scale_bar();
+        canvas.svg.push_str("</svg>\n");
+        canvas.svg
+    }
+
+    fn bounds(&self) -> (Vec2, Vec2) {
+        let points = self.walls.iter().flat_map(|&(a, b)| [a, b]).chain(self.path.iter().map(|pose| pose.position()));
+        let start = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
+        let (low, high) = points.fold(start, |(low, high), p| (low.inf(&p), high.sup(&p)));
+        if low.x.is_finite() { (low, high) } else { (Vec2::zeros(), Vec2::repeat(1.0)) }
+    }
+}
+
+impl Canvas {
+    fn put(&mut self, text: std::fmt::Arguments) {
+        // Writing to a string cannot fail.
+        let _ = self.svg.write_fmt(text);
+        self.svg.push('\n');
+    }
+
+    fn xy(&self, point: Vec2) -> (f64, f64) {
+        let round = |v: f64| (v * 10.0).round() / 10.0 + 0.0;
+        (round(MARGIN + (point.x - self.low.x) * SCALE), round(self.top + (self.high.y - point.y) * SCALE))
+    }
+
+    fn open(&mut self, title: &str) {
+        let width = 2.0 * MARGIN + (self.high.x - self.low.x) * SCALE;
+        let height = self.top + MARGIN + 20.0 + (self.high.y - self.low.y) * SCALE;
+        self.put(format_args!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0} {height:.0}" width="{width:.0}" height="{height:.0}" role="img" font-family="sans-serif">"#
+        ));
+        self.put(format_args!("<title>{}</title>", escaped(title)));
+        self.put(format_args!("<style>.wall{{stroke:#333;stroke-width:4;stroke-linecap:square}}.item{{fill:#e8dcc8;stroke:#8a7350;stroke-width:1.5}}.found{{fill:#cfe8cf;stroke:#2e7d32;stroke-width:2.5}}.path{{stroke:#c2185b;stroke-width:2.2;stroke-linecap:round}}.tick{{stroke:#c2185b;stroke-width:1.1;opacity:.5}}.label{{font-size:12px;fill:#4a3c22;text-anchor:middle}}.room{{font-size:17px;fill:#b9bcc2;text-anchor:middle}}.title{{font-size:16px;fill:#111}}.caption{{font-size:13px;fill:#555}}</style>"));
+        self.put(format_args!(r##"<rect width="100%" height="100%" fill="#fff"/>"##));
+    }
+
+    fn title(&mut self, lines: &[String], caption: &str) {
+        for (i, line) in lines.iter().enumerate() {
+            let y = MARGIN + 4.0 + 20.0 * i as f64;
+            self.put(format_args!(r#"<text class="title" x="{MARGIN}" y="{y}">{}</text>"#, escaped(line)));
+        }
+        let y = MARGIN + 4.0 + 20.0 * lines.len() as f64;
+        self.put(format_args!(r#"<text class="caption" x="{MARGIN}" y="{y}">{}</text>"#, escaped(caption)));
+    }
+
+    fn line(&mut self, a: Vec2, b: Vec2, class: &str) {
+        let ((x1, y1), (x2, y2)) = (self.xy(a), self.xy(b));
+        self.put(format_args!(r#"<line class="{class}" x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}"/>"#));
+    }
+
+    fn text(&mut self, at: Vec2, text: &str, class: &str) {
+        let (x, y) = self.xy(at);
+        self.put(format_args!(r#"<text class="{class}" x="{x}" y="{:.1}">{}</text>"#, y + 4.0, escaped(text)));
+    }
+
+    fn furniture(&mut self, outline: &Outline) {
+        let points: Vec<String> =
+            outline.corners.iter().map(|&c| self.xy(c)).map(|(x, y)| format!("{x},{y}")).collect();
+        let class = if outline.found { "item found" } else { "item" };
+        self.put(format_args!(r#"<polygon class="{class}" points="{}"/>"#, points.join(" ")));
+        let sum = outline.corners.iter().fold(Vec2::zeros(), |sum, corner| sum + corner);
+        // Above the mark that shows where the object was found.
+        let aside = if outline.found { Vec2::new(0.0, 0.28) } else { Vec2::zeros() };
+        self.text(sum / outline.corners.len().max(1) as f64 + aside, &outline.label, "label");
+    }
+
+    /// Short lines half a second apart, with a tick for the heading, a ring at the start and an arrow at the end.
+    fn path(&mut self, path: &[Pose]) {
+        for pair in path.windows(2) {
+            self.line(pair[0].position(), pair[1].position(), "path");
+        }
+        for pose in path.iter().step_by(4) {
+            self.line(pose.position(), pose.position() + pose.forward() * 0.18, "tick");
+        }
+        if let (Some(first), Some(last)) = (path.first(), path.last()) {
+            let (x, y) = self.xy(first.position());
+            self.put(format_args!(
+                r##"<circle cx="{x}" cy="{y}" r="6" fill="#fff" stroke="#c2185b" stroke-width="2.5"/>"##
+            ));
+            let tip = |along: f64, across: f64| self.xy(last.to_world(Vec2::new(along, across)));
+            let [(ax, ay), (bx, by), (cx, cy)] = [tip(0.3, 0.0), tip(-0.2, 0.2), tip(-0.2, -0.2)];
+            self.put(format_args!(r##"<polygon points="{ax},{ay} {bx},{by} {cx},{cy}" fill="#c2185b"/>"##));
+        }
+    }
+
+    fn star(&mut self, point: Vec2) {
+        let (x, y) = self.xy(point);
+        self.put(format_args!(r##"<circle cx="{x}" cy="{y}" r="7" fill="#2e7d32" stroke="#fff" stroke-width="2"/>"##));
+    }
+
+    fn scale_bar(&mut self) {
+        let y = self.top + (self.high.y - self.low.y) * SCALE + 26.0;
+        let end = MARGIN + SCALE;
+        self.put(format_args!(
+            r##"<line x1="{MARGIN}" y1="{y}" x2="{end}" y2="{y}" stroke="#555" stroke-width="3"/>"##
+        ));
+        self.put(format_args!(r#"<text class="caption" x="{}" y="{}">1 m</text>"#, end + 8.0, y + 4.0));
+    }
+}
+
+fn wrapped(text: &str, per_line: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.len() - 1;
+        if !lines[last].is_empty() && lines[last].chars().count() + word.chars().count() >= per_line {
+            lines.push(word.to_string());
+        } else {
+            if !lines[last].is_empty() {
+                lines[last].push(' ');
+            }
+            lines[last].push_str(word);
+        }
+    }
+    lines
+}
+
+/// Control characters are no XML.
+fn escaped(text: &str) -> String {
+    let text = text.chars().filter(|c| !c.is_control()).collect::<String>();
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_cannot_break_the_picture() {
+        let plot = Plot { title: "a <b> & \"c\" \u{7}".to_string(), ..Plot::default() };
+        let svg = plot.to_svg();
+        assert!(svg.contains("a &lt;b&gt; &amp; &quot;c&quot;") && !svg.contains('\u{7}'));
+    }
+
+    #[test]
+    fn long_sentences_are_wrapped_between_words() {
+        assert_eq!(wrapped("one two three four", 9), ["one two", "three", "four"]);
+    }
+}

@@ -1,0 +1,281 @@
+//! Gold descriptions: the project's own format, and the JSON lines of corpora with tokens, chunks and groundings.
+
+use std::collections::BTreeSet;
+
+use serde::Deserialize;
+
+use super::brackets::{Bracket, brackets_of};
+use super::labelled::parse_tree;
+use crate::record::{Direction, Node, ObjectSlot, RoomSlot, Tag};
+
+/// What a description is labelled as.
+#[derive(Clone, Debug, Default)]
+pub struct Gold {
+    /// The record's id.
+    pub id: String,
+    /// The description.
+    pub text: String,
+    /// Labelled brackets over its words; empty when it has no tree.
+    pub brackets: BTreeSet<Bracket>,
+    /// Whether it says what the description means.
+    pub has_grounding: bool,
+    /// The side that picks the room.
+    pub side: Option<Direction>,
+    /// The room's name.
+    pub room: Option<String>,
+    /// The object.
+    pub object: Option<String>,
+    /// Whether any target furniture is named.
+    pub has_target: bool,
+    /// References and directions, sorted.
+    pub pairs: Vec<(String, Direction)>,
+    /// Ids of the furniture that the words allow.
+    pub expect: Vec<String>,
+}
+
+/// A gold file that cannot be read.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{file}:{line}: {message}")]
+pub struct GoldError {
+    /// The file.
+    pub file: String,
+    /// 1-based.
+    pub line: usize,
+    /// What is wrong.
+    pub message: String,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Entry {
+    Own(Box<OwnEntry>),
+    Tokens(Box<TokenEntry>),
+}
+
+/// The project's own format.
+#[derive(Deserialize)]
+struct OwnEntry {
+    id: String,
+    text: String,
+    tree: String,
+    grounding: OwnGrounding,
+    #[serde(default)]
+    expect: Vec<String>,
+}
+
+#[derive(Deserialize)]
+struct OwnGrounding {
+    room: Option<RoomSlot>,
+    object: Option<ObjectSlot>,
+    nodes: Vec<Node>,
+}
+
+/// A treebank's lines: chunks by token, a grounding for each.
+#[derive(Deserialize)]
+struct TokenEntry {
+    id: String,
+    text: String,
+    chunks: Vec<TokenChunk>,
+    #[serde(default)]
+    groundings: Vec<TokenGrounding>,
+}
+
+#[derive(Deserialize)]
+struct TokenChunk {
+    tag: String,
+    start: usize,
+    end: usize,
+}
+
+#[derive(Deserialize)]
+struct TokenGrounding {
+    room: Option<String>,
+    object: Option<String>,
+    reference: Option<String>,
+    direction: Option<String>,
+    target: Option<String>,
+}
+
+/// Reads gold descriptions, one JSON object a line; `file` is named in errors.
+pub fn read_gold(text: &str, file: &str) -> Result<Vec<Gold>, GoldError> {
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    lines
+        .map(|(i, line)| {
+            let wrong = |message: String| GoldError { file: file.to_string(), line: i + 1, message };
+            let entry = serde_json::from_str(line).map_err(|error| {
+                wrong(format!("no gold description ({error}); it needs id, text, and tree with grounding, or chunks"))
+            })?;
+            match entry {
+                Entry::Own(own) => from_own(*own).map_err(wrong),
+                Entry::Tokens(tokens) => Ok(from_tokens(*tokens)),
+            }
+        })
+        .collect()
+}
+
+fn from_own(entry: OwnEntry) -> Result<Gold, String> {
+    let tree = parse_tree(&entry.tree).map_err(|error| error.to_string())?;
+    if tree.text != entry.text {
+        return Err("`tree` and `text` have different words".to_string());
+    }
+    let chunks: Vec<_> = tree.chunks.iter().map(|chunk| chunk.to_chunk()).collect();
+    let nodes = entry.grounding.nodes;
+    let mut pairs: Vec<_> =
+        nodes.iter().flat_map(|node| &node.pairs).map(|pair| (pair.reference.clone(), pair.direction)).collect();
+    pairs.sort();
+    let room = entry.grounding.room.unwrap_or_default();
+    Ok(Gold {
+        brackets: brackets_of(&entry.text, &chunks),
+        id: entry.id,
+        text: entry.text,
+        has_grounding: true,
+        side: room.side,
+        room: room.name,
+        object: entry.grounding.object.map(|object| object.name),
+        has_target: nodes.iter().any(|node| node.target.is_some()),
+        pairs,
+        expect: entry.expect,
+    })
+}
+
+fn from_tokens(entry: TokenEntry) -> Gold {
+    let last =
+        |pick: fn(&TokenGrounding) -> Option<&String>| entry.groundings.iter().filter_map(pick).next_back().cloned();
+    let room = last(|g| g.room.as_ref());
+    // These corpora name the room by its side in the apartment.
+    let side = match room.as_deref() {
+        Some("living room") => Some(Direction::Right),
+        Some("bedroom" | "bed room") => Some(Direction::Left),
+        _ => None,
+    };
+    let mut pairs: Vec<_> = entry.groundings.iter().filter_map(pair_of).collect();
+    pairs.sort();
+    Gold {
+        brackets: entry.chunks.iter().filter_map(|c| Some((tag_of(&c.tag)?, c.start, c.end))).collect(),
+        has_grounding: !entry.groundings.is_empty(),
+        side,
+        room: None,
+        object: last(|g| g.object.as_ref()).map(|object| object.replace(' ', "_")),
+        has_target: entry.groundings.iter().any(|g| g.target.is_some()),
+        pairs,
+        expect: Vec::new(),
+        id: entry.id,
+        text: entry.text,
+    }
+}
+
+fn pair_of(grounding: &TokenGrounding) -> Option<(String, Direction)> {
+    let reference = grounding.reference.as_ref()?.replace(' ', "_");
+    // A reference without a direction is an empty cell of a move ahead.
+    let direction = match grounding.direction.as_deref() {
+        Some("back" | "behind") => Direction::Back,
+        Some("left") => Direction::Left,
+        Some("right") => Direction::Right,
+        Some("center" | "central") => Direction::Central,
+        Some("beside" | "side") => Direction::Side,
+        Some("between") => Direction::Between,
+        _ => Direction::Front,
+    };
+    Some((reference, direction))
+}
+
+/// Slips of the pen in public treebanks are read as what was meant.
+fn tag_of(name: &str) -> Option<Tag> {
+    let name = match name {
+        "OBPT" => "OBTP",
+        "FURTR" => "FURTP",
+        "PERSP" => "PERS",
+        "IRMTP" => "IRMRP",
+        other => other,
+    };
+    Tag::from_name(name)
+}
+
+impl Gold {
+    /// "where" when the description begins with the object, else "how".
+    pub fn form(&self) -> &'static str {
+        let first = self.brackets.iter().map(|(_, first, _)| *first).min();
+        let begins = |tag: Tag| self.brackets.iter().any(|(t, f, _)| *t == tag && Some(*f) == first);
+        if begins(Tag::Obtp) { "where" } else { "how" }
+    }
+
+    /// Which furniture it names: none, the table alone, or other furniture as well.
+    pub fn names(&self) -> &'static str {
+        let has = |tag: Tag| self.brackets.iter().any(|(t, _, _)| *t == tag);
+        match (has(Tag::Furrp) || has(Tag::Obrp), has(Tag::Furtp)) {
+            (true, _) => "other",
+            (false, true) => "table only",
+            (false, false) => "none",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evaluation::labelled::LabelledChunk;
+    use crate::evaluation::model::in_order;
+    use crate::grounding::{Meaning, assemble, chunk_words, meaning_of_label};
+    use crate::world::Scene;
+
+    fn corpora() -> Vec<(&'static str, &'static str)> {
+        vec![
+            ("templates.jsonl", include_str!("../../corpus/templates.jsonl")),
+            ("speech.jsonl", include_str!("../../corpus/speech.jsonl")),
+        ]
+    }
+
+    #[test]
+    fn the_own_corpus_is_sound_and_its_furniture_exists() {
+        let scene = Scene::apartment();
+        let mut ids = BTreeSet::new();
+        for (file, text) in corpora() {
+            for gold in read_gold(text, file).expect("a sound corpus") {
+                assert!(ids.insert(gold.id.clone()), "{} stands twice", gold.id);
+                assert!(
+                    !gold.expect.is_empty() && gold.expect.iter().all(|id| scene.item(id).is_some()),
+                    "{}",
+                    gold.id
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_templates_cover_every_cell() {
+        let gold = read_gold(corpora()[0].1, "templates.jsonl").expect("a sound corpus");
+        for object in ["fork", "glasses_case", "laptop", "statue", "monitor", "mug"] {
+            for form in ["how", "where"] {
+                for names in ["none", "table only", "other"] {
+                    let cell =
+                        |g: &&Gold| g.object.as_deref() == Some(object) && g.form() == form && g.names() == names;
+                    assert!(gold.iter().any(|g| cell(&g)), "no {form} sentence for the {object} naming {names}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_labels_in_the_trees_assemble_to_the_gold_pairs() {
+        for (file, text) in corpora() {
+            for (line, gold) in text.lines().zip(read_gold(text, file).expect("a sound corpus")) {
+                let entry: serde_json::Value = serde_json::from_str(line).expect("JSON");
+                let tree = parse_tree(entry["tree"].as_str().unwrap_or_default()).expect("a tree");
+                let chunks: Vec<_> = tree.chunks.iter().map(|c| c.to_chunk()).collect();
+                let meaning = |c: &LabelledChunk| meaning_of_label(c.tag, c.label.as_deref());
+                let meanings: Vec<Meaning> = in_order(&tree.chunks).into_iter().map(meaning).collect();
+                let grounding = assemble(&chunk_words(&tree.text, &chunks), &meanings);
+                let mut pairs: Vec<_> =
+                    grounding.nodes.iter().flat_map(|n| &n.pairs).map(|p| (p.reference.clone(), p.direction)).collect();
+                pairs.sort();
+                assert_eq!(pairs, gold.pairs, "{file}: {}", gold.id);
+            }
+        }
+    }
+
+    #[test]
+    fn a_bad_line_is_named() {
+        let error = read_gold("\n{\"id\":1}\n", "my.jsonl").expect_err("no gold");
+        assert!(error.to_string().starts_with("my.jsonl:2: no gold description"), "{error}");
+    }
+}

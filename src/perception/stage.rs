@@ -1,0 +1,59 @@
+//! `perceive` as a stage: records that name frames in, detections out.
+
+use std::path::PathBuf;
+
+use super::classify::classify;
+use super::floor_grid::project;
+use super::frame::{FrameError, FrameFiles};
+use crate::geometry::vec2;
+use crate::record::{Detection, Note, Record, Stage, StageError};
+
+/// Finds furniture in the depth pictures that records name.
+#[derive(Clone, Debug, Default)]
+pub struct Perceiver {
+    /// Where relative paths begin.
+    pub folder: PathBuf,
+}
+
+impl Perceiver {
+    fn detections(&self, frame: &FrameFiles) -> Result<Vec<Detection>, FrameError> {
+        frame.check()?;
+        let depth = frame.load_depth(&self.folder)?;
+        let camera = vec2(frame.world_from_camera[0][3], frame.world_from_camera[1][3]);
+        let Some(grid) = project(frame, &depth) else { return Ok(Vec::new()) };
+        Ok(grid.components().iter().filter_map(|cells| classify(&grid, cells, camera)).map(rounded).collect())
+    }
+}
+
+/// Detections are written to a tenth of a millimetre.
+fn rounded(mut detection: Detection) -> Detection {
+    let four = |v: f64| crate::record::Rounded(v).value();
+    for value in
+        [&mut detection.x, &mut detection.y, &mut detection.length, &mut detection.width, &mut detection.height]
+    {
+        *value = four(*value);
+    }
+    detection.yaw = detection.yaw.map(four);
+    detection.footprint.iter_mut().flatten().for_each(|value| *value = four(*value));
+    detection
+}
+
+impl Stage for Perceiver {
+    fn run(&self, record: &mut Record) -> Result<Note, StageError> {
+        let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
+        let frame: FrameFiles = serde_json::from_str(&line).map_err(|error| {
+            let what = crate::record::message_without_position(&error);
+            StageError::new(format!("{what}; a frame needs depth, fx, fy, cx, cy, depth_unit_m and T_world_cam"))
+        })?;
+        let detections = self.detections(&frame).map_err(|error| StageError::new(error.to_string()))?;
+        record.set("detections", &detections);
+        Ok(Note::Done)
+    }
+
+    fn text(&self, record: &Record) -> Result<String, StageError> {
+        let detections: Vec<Detection> = record.require("detections", "it is what `perceive` adds")?;
+        let mut lines: Vec<String> = record.get::<String>("frame")?.into_iter().collect();
+        lines.extend(detections.iter().map(|d| format!("  {:12} at ({:.2}, {:.2}): {}", d.category, d.x, d.y, d.why)));
+        Ok(lines.join("\n"))
+    }
+}

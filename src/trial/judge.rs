@@ -1,0 +1,89 @@
+//! What a trial was worth, by the truth.
+
+use super::Home;
+use crate::behavior::{Beliefs, Furniture, SWING_M, grid_of, length, route, viewpoints};
+use crate::geometry::Vec2;
+use crate::perception::View;
+use crate::record::{Detection, Outcome};
+use crate::world::Item;
+
+/// The judge's verdict.
+#[derive(Clone, Debug, Default)]
+pub struct Verdict {
+    /// Ids of the furniture approached.
+    pub approached: Vec<String>,
+    /// The furniture at which the object was found.
+    pub target_id: Option<String>,
+    /// Whether the first furniture approached holds the object.
+    pub right_first: Option<bool>,
+    /// Success weighted by path length.
+    pub spl: Option<f64>,
+}
+
+/// Judges a trial: what was approached, where the object was found, how long the way was against the shortest.
+pub fn judge(
+    home: &Home,
+    object: Option<&str>,
+    approached: &[Vec2],
+    found_at: Option<Vec2>,
+    outcome: Outcome,
+    distance_m: f64,
+) -> Verdict {
+    let id_at = |point: &Vec2| home.scene.furniture_at(*point).map(|item| item.id.clone());
+    let approached: Vec<String> = approached.iter().filter_map(id_at).collect();
+    let holders = holders(home, object);
+    let right_first = approached.first().map(|first| holders.iter().any(|item| item.id == *first));
+    let shortest = holders.iter().filter_map(|item| shortest_way(home, item)).fold(f64::INFINITY, f64::min);
+    let spl = if outcome == Outcome::Found && shortest.is_finite() {
+        Some(shortest / shortest.max(distance_m).max(1e-9))
+    } else {
+        (!holders.is_empty()).then_some(0.0)
+    };
+    let target_id = found_at.and_then(|point| home.scene.furniture_at(point)).map(|item| item.id.clone());
+    Verdict { approached, target_id, right_first, spl }
+}
+
+/// The furniture that holds the object; any that holds something when none is named.
+fn holders<'h>(home: &'h Home, object: Option<&str>) -> Vec<&'h Item> {
+    match object {
+        Some(name) => home.scene.holders_of(name),
+        None => home.scene.objects.iter().filter_map(|object| home.scene.item(&object.on)).collect(),
+    }
+}
+
+/// Metres from the start to where a piece can be looked at, all furniture known.
+fn shortest_way(home: &Home, item: &Item) -> Option<f64> {
+    let rooms = grid_of(&home.map);
+    let mut grid = rooms.clone();
+    for other in &home.scene.furniture {
+        grid.add_polygon(&other.footprint());
+    }
+    let start = home.map.start.position();
+    let piece = as_seen(item)?;
+    let ways = viewpoints(&grid, &rooms, start, &piece).into_iter().filter_map(|pose| {
+        let way = route(&grid, start, pose.position(), SWING_M)?;
+        Some(length(start, &way))
+    });
+    ways.fold(None, |least: Option<f64>, way| Some(least.map_or(way, |l| l.min(way))))
+}
+
+fn as_seen(item: &Item) -> Option<Furniture> {
+    let size = item.size();
+    let detection = Detection {
+        category: item.kind().noun.to_string(),
+        confidence: 1.0,
+        scores: Default::default(),
+        x: item.x,
+        y: item.y,
+        yaw: None,
+        length: size.length,
+        width: size.width,
+        height: size.height,
+        footprint: item.footprint().corners().iter().map(|c| [c.x, c.y]).collect(),
+        attributes: Vec::new(),
+        why: String::new(),
+    };
+    let mut beliefs = Beliefs::default();
+    beliefs.take_in(&View { furniture: vec![detection], objects: Vec::new() });
+    beliefs.furniture.pop()
+}

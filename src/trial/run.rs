@@ -1,0 +1,63 @@
+//! Runs one plan in a home.
+
+use super::Home;
+use super::judge::judge;
+use crate::behavior::{Executive, Options, Watcher};
+use crate::geometry::{Pose, Vec2};
+use crate::perception::truth::TruthEyes;
+use crate::record::{Action, PathPoint, Plan, Trial};
+use crate::robot::MobileBase;
+use crate::robot::simulated::{Obstacles, SimulatedBase};
+
+/// A trial with what was true at its end.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The trial, as the record gets it.
+    pub trial: Trial,
+    /// Where the robot truly stood.
+    pub final_pose: Pose,
+    /// Where the object was recognised.
+    pub found_at: Option<Vec2>,
+}
+
+/// Runs `plan` in `home` with ideal eyes.
+pub fn run(home: &Home, plan: &Plan, options: Options, watcher: &mut dyn Watcher) -> Run {
+    let mut base = SimulatedBase::new(Obstacles::new(&home.map, &home.scene), home.map.start);
+    let truth = base.truth();
+    let mut eyes = TruthEyes::new(&home.map, home.shared_scene(), base.truth());
+    let report = Executive::new(&home.map, &mut base, &mut eyes, watcher, options).run(plan);
+    let duration_s = base.time_s();
+    let truth = truth.borrow().clone();
+    let verdict = judge(home, object_of(plan), &report.approached, report.found_at, report.outcome, truth.distance_m);
+    let mut path = report.journal.path;
+    path.push(PathPoint::new(duration_s, base.pose()));
+    let trial = Trial {
+        outcome: report.outcome,
+        why: report.why,
+        final_pose: rounded(base.pose()),
+        target_id: verdict.target_id,
+        approached: verdict.approached,
+        right_first: verdict.right_first,
+        picture: None,
+        duration_s: duration_s.into(),
+        distance_m: truth.distance_m.into(),
+        spl: verdict.spl.map(Into::into),
+        collisions: truth.collisions,
+        min_clearance_m: Some(truth.min_clearance_m.into()),
+        actions: report.journal.actions,
+        path,
+    };
+    Run { trial, final_pose: truth.pose, found_at: report.found_at }
+}
+
+fn rounded(pose: Pose) -> Pose {
+    let four = |v: f64| crate::record::Rounded(v).value();
+    Pose::new(four(pose.x), four(pose.y), four(pose.heading))
+}
+
+fn object_of(plan: &Plan) -> Option<&str> {
+    plan.actions.iter().find_map(|action| match action {
+        Action::Find { object } => object.as_deref(),
+        _ => None,
+    })
+}

@@ -1,0 +1,84 @@
+//! `drive` as a stage of the pipeline.
+
+use super::outputs::{Outputs, Recorder, file_name};
+use super::{Home, Run, run};
+use crate::behavior::{Options, Silent};
+use crate::files::{FileError, write_file};
+use crate::record::{Note, Plan, Record, Stage, StageError, Trial};
+
+/// Runs the plan of each record in a home.
+#[derive(Clone, Debug)]
+pub struct Driver {
+    /// Where.
+    pub home: Home,
+    /// How.
+    pub options: Options,
+    /// What to leave beside the record.
+    pub outputs: Outputs,
+}
+
+impl Driver {
+    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
+        let Some(path) = &self.outputs.record else {
+            let mut run = run(&self.home, plan, self.options, &mut Silent);
+            self.leave(&mut run, record, id)?;
+            record.set("trial", &run.trial);
+            return Ok(());
+        };
+        let path = Outputs::named(path, id);
+        let mut recorder = Recorder::new(&path, self.outputs.force, &self.home).map_err(StageError::new)?;
+        let mut run = run(&self.home, plan, self.options, &mut recorder);
+        self.leave(&mut run, record, id)?;
+        record.set("trial", &run.trial);
+        let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
+        recorder.finish(&run, Outputs::take_picture(&self.home, &run), &line).map_err(StageError::new)
+    }
+
+    /// Writes the plot and the picture.
+    fn leave(&self, run: &mut Run, record: &Record, id: &str) -> Result<(), StageError> {
+        let failed = |error: FileError| StageError::new(error.to_string());
+        if let Some(path) = &self.outputs.plot {
+            let title: String = record.get("text")?.unwrap_or_default();
+            let svg = Outputs::draw_plot(&self.home, run, &title);
+            write_file(&Outputs::named(path, id), svg.as_bytes(), self.outputs.force).map_err(failed)?;
+        }
+        if let Some(folder) = &self.outputs.picture {
+            let name = format!("{}.png", file_name(id));
+            std::fs::create_dir_all(folder).map_err(|e| StageError::new(format!("{}: {e}", folder.display())))?;
+            let png = Outputs::take_picture(&self.home, run);
+            write_file(&folder.join(&name), &png, self.outputs.force).map_err(failed)?;
+            run.trial.picture = Some(name);
+        }
+        Ok(())
+    }
+}
+
+impl Stage for Driver {
+    fn run(&self, record: &mut Record) -> Result<Note, StageError> {
+        let plan: Plan = record.require("plan", "pipe the record through `plan` first")?;
+        if plan.map != self.home.map.name {
+            let (plan, home) = (&plan.map, &self.home.map.name);
+            let message =
+                format!("`plan`: made for the map `{plan}`, the robot is in `{home}`; give both the same --map");
+            return Err(StageError::new(message));
+        }
+        let id = record.id().unwrap_or_else(|| "record".to_string());
+        self.drive(record, &plan, &id)?;
+        Ok(Note::Done)
+    }
+
+    fn text(&self, record: &Record) -> Result<String, StageError> {
+        let trial: Trial = record.require("trial", "it is what `drive` adds")?;
+        let mut lines: Vec<String> = record.get::<String>("text")?.into_iter().collect();
+        for action in &trial.actions {
+            let (start, end) = (action.start_s.0, action.end_s.0);
+            lines.push(format!("{start:6.1}–{end:<6.1} {:7} {}", action.action, action.result));
+            lines.extend(action.why.split("; ").filter(|why| !why.is_empty()).map(|why| format!("{:22} {why}", "")));
+        }
+        let outcome = format!("{:?}", trial.outcome).to_lowercase();
+        let (metres, seconds) = (trial.distance_m.0, trial.duration_s.0);
+        lines
+            .push(format!("{outcome}: {} ({metres:.1} m, {seconds:.0} s, {} collisions)", trial.why, trial.collisions));
+        Ok(lines.join("\n"))
+    }
+}

@@ -1,0 +1,77 @@
+//! `drive` through the real executable.
+
+mod common;
+
+use common::{pipe, run};
+
+fn planned(text: &str) -> String {
+    pipe(&["chunk", "ground", "plan"], &format!("{text}\n"))
+}
+
+#[test]
+fn the_robot_finds_the_mug_and_leaves_plot_picture_and_log() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_string();
+    let (plot, log) = (file("way.svg"), file("trial-{id}.mcap"));
+    let pictures = file("pictures");
+    let arguments = ["--plot", &plot, "--picture", &pictures, "--record", &log];
+    let ran =
+        run("drive", &arguments, planned("the mug is in the bedroom on the table next to the chairs")).expect_code(0);
+    let trial = &ran.records()[0]["trial"];
+    assert_eq!(trial["outcome"], "found", "{trial}");
+    assert_eq!((&trial["target_id"], &trial["right_first"]), (&"hexagon-table-1".into(), &true.into()));
+    assert_eq!(trial["collisions"], 0);
+    assert_eq!(trial["picture"], "1.png");
+    assert!(std::fs::read_to_string(&plot).expect("a plot").contains("<svg"));
+    assert!(std::fs::read(folder.path().join("pictures/1.png")).expect("a picture").starts_with(b"\x89PNG"));
+    let records = spatial_fetch::recording::records(&folder.path().join("trial-1.mcap")).expect("a log");
+    assert_eq!(records, [ran.out.trim_end()]);
+}
+
+#[test]
+fn a_wrong_relation_is_mended_by_looking_elsewhere() {
+    let ran = run("drive", &["--no-glance"], planned("the fork is in the living room on the table with the chairs"))
+        .expect_code(0);
+    let trial = &ran.records()[0]["trial"];
+    assert_eq!((&trial["outcome"], &trial["right_first"]), (&"found".into(), &false.into()));
+    assert!(trial["approached"].as_array().is_some_and(|ids| ids.len() > 1));
+}
+
+#[test]
+fn an_object_that_is_not_there_is_not_found_and_the_record_says_why() {
+    let ran = run("drive", &[], planned("the umbrella is in the bedroom on the table")).expect_code(0);
+    let trial = &ran.records()[0]["trial"];
+    assert_eq!(trial["outcome"], "not_found");
+    assert!(trial["why"].as_str().is_some_and(|why| why.contains("no umbrella")), "{trial}");
+}
+
+#[test]
+fn every_action_says_why() {
+    let ran = run(
+        "drive",
+        &["--no-glance", "--format", "text"],
+        planned("the statue is in the bedroom on the left on the nightstand to the right of the bed"),
+    );
+    let text = ran.expect_code(0).out;
+    assert!(text.contains("before") && text.contains("found: the statue is on"), "{text}");
+}
+
+#[test]
+fn the_same_plan_gives_the_same_bytes() {
+    let plan = planned("find the laptop in the living room");
+    assert_eq!(run("drive", &["-j", "1"], &plan).out, run("drive", &[], &plan).out);
+}
+
+#[test]
+fn a_plan_for_another_map_is_refused() {
+    let plan = planned("find the laptop in the living room").replace("\"map\":\"apartment\"", "\"map\":\"castle\"");
+    let ran = run("drive", &[], plan).expect_code(1);
+    assert!(ran.err.contains("made for the map `castle`, the robot is in `apartment`"), "{}", ran.err);
+}
+
+#[test]
+fn the_modified_home_is_driven_as_well() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/apartment-modified.scene.json");
+    let ran = run("drive", &["--scene", scene], planned("find the monitor in the bedroom")).expect_code(0);
+    assert_eq!(ran.records()[0]["trial"]["outcome"], "found");
+}
