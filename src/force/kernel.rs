@@ -12,8 +12,6 @@ pub enum Force {
     Power(f64),
     /// 1 / max(d, Y0)²: gravitational beyond Y0, constant within it.
     Hybrid(f64),
-    /// Counts coincident points only; its resultant is the area of the intersection.
-    Overlap,
 }
 
 /// The force diverges: the objects touch or overlap, and r is too large for that.
@@ -111,7 +109,6 @@ impl Kernel {
             (Force::Power(r), None) => plain(r, d),
             (Force::Hybrid(near), _) if d <= near => d * d / (2.0 * near * near),
             (Force::Hybrid(near), _) => 2.0 * d / near - 1.5 - (d / near).ln(),
-            (Force::Overlap, _) => d,
         }
     }
 
@@ -128,7 +125,6 @@ impl Kernel {
                 let beyond = |d: f64| d * d / near - 0.5 * d - d * (d / near).ln();
                 near / 6.0 + beyond(d) - beyond(near)
             }
-            Force::Overlap => d * d / 2.0,
         }
     }
 }

@@ -22,16 +22,32 @@
 
 mod degree;
 mod describe;
+mod frame;
+mod gap;
+mod histogram;
+mod input;
 mod kernel;
+mod main_direction;
+mod mask;
+mod name;
 pub mod polygon;
+pub mod raster;
 mod relation;
+mod rose;
 mod shape;
 mod stage;
+mod surround;
+mod wording;
 
-pub use degree::{Degree, degree_of_truth, main_direction};
-pub use describe::describe;
+pub use degree::{DegreeOfTruth, degree_of_truth};
+pub use describe::Description;
+pub use frame::{Frame, Words};
+pub use histogram::Histogram;
 pub use kernel::{Force, Infinite};
-pub use polygon::Histogram;
-pub use relation::{Relation, between};
+pub use main_direction::main_direction;
+pub use name::{ForceName, FrameName};
+pub use relation::Relation;
 pub use shape::{Shape, ShapeError};
-pub use stage::{Describer, ForceName};
+pub use stage::{Describer, Pictures};
+pub use surround::{between, surround};
+pub use wording::{Assessment, Closeness};

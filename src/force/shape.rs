@@ -1,6 +1,7 @@
 //! Areal objects: rings with holes, in several parts.
 
-use crate::geometry::{Polygon, Vec2, cross, segment_distance, segments_touch, vec2};
+use super::gap::boxes_meet;
+use crate::geometry::{Polygon, Vec2, cross, vec2};
 
 /// An areal object: outer rings counter-clockwise, holes clockwise.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,9 +32,6 @@ pub enum ShapeError {
     NoArea(usize),
 }
 
-/// Above this many corners the pairwise test for crossings would cost more than the histogram.
-const MOST_CHECKED: usize = 4000;
-
 impl Shape {
     /// A shape of one simple ring, in either order, unchecked.
     pub fn from_ring(ring: Vec<[f64; 2]>) -> Self {
@@ -59,7 +57,8 @@ impl Shape {
 
     /// Square units.
     pub fn area(&self) -> f64 {
-        self.edges().map(|(a, b)| cross(a, b)).sum::<f64>() / 2.0
+        let origin = self.corner();
+        self.edges().map(|(a, b)| cross(a - origin, b - origin)).sum::<f64>() / 2.0
     }
 
     /// Whether a point lies inside.
@@ -70,27 +69,32 @@ impl Shape {
         crossings.count() % 2 == 1
     }
 
-    /// Whether the borders or areas of two shapes share a point.
-    pub fn touches(&self, other: &Self) -> bool {
-        let inside = |a: &Self, b: &Self| a.rings.iter().any(|ring| b.contains(ring[0]));
-        self.edges().any(|(a, b)| other.edges().any(|(c, d)| boxes_meet(a, b, c, d) && segments_touch(a, b, c, d)))
-            || inside(self, other)
-            || inside(other, self)
+    /// The rings, outer ones counter-clockwise, holes clockwise.
+    pub fn rings(&self) -> &[Vec<Vec2>] {
+        &self.rings
     }
 
-    /// The gap between two shapes, zero when they touch.
-    pub fn distance(&self, other: &Self) -> f64 {
-        if self.touches(other) {
-            return 0.0;
+    /// One of the corners.
+    pub(super) fn corner(&self) -> Vec2 {
+        self.rings.first().and_then(|ring| ring.first()).copied().unwrap_or_else(Vec2::zeros)
+    }
+
+    /// The lowest and highest x and y.
+    pub fn bounds(&self) -> (Vec2, Vec2) {
+        let start = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
+        self.rings.iter().flatten().fold(start, |(low, high), c| (low.inf(c), high.sup(c)))
+    }
+
+    /// The centre of area.
+    pub fn centroid(&self) -> Vec2 {
+        let origin = self.corner();
+        let (mut sum, mut doubled_area) = (Vec2::zeros(), 0.0);
+        for (a, b) in self.edges().map(|(a, b)| (a - origin, b - origin)) {
+            sum += (a + b) * cross(a, b);
+            doubled_area += cross(a, b);
         }
-        let gaps = self.edges().flat_map(|(a, b)| other.edges().map(move |(c, d)| segment_distance(a, b, c, d)));
-        gaps.fold(f64::INFINITY, f64::min)
+        origin + sum / (3.0 * doubled_area)
     }
-}
-
-fn boxes_meet(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool {
-    let ((l1, h1), (l2, h2)) = ((a.inf(&b), a.sup(&b)), (c.inf(&d), c.sup(&d)));
-    l1.x <= h2.x && l2.x <= h1.x && l1.y <= h2.y && l2.y <= h1.y
 }
 
 fn checked(ring: &[[f64; 2]], number: usize) -> Result<Vec<Vec2>, ShapeError> {
@@ -108,29 +112,39 @@ fn checked(ring: &[[f64; 2]], number: usize) -> Result<Vec<Vec2>, ShapeError> {
     if corners.len() < 3 {
         return Err(ShapeError::TooFewCorners(number));
     }
-    if signed_area(&corners) == 0.0 {
-        return Err(ShapeError::NoArea(number));
+    // Before the area, which is zero for a bow tie too.
+    if let Some((i, j)) = crossing(&corners) {
+        return Err(ShapeError::SelfCrossing(number, i + 1, j + 1));
     }
-    match crossing(&corners) {
-        Some((i, j)) => Err(ShapeError::SelfCrossing(number, i + 1, j + 1)),
-        None => Ok(corners),
-    }
+    if signed_area(&corners) == 0.0 { Err(ShapeError::NoArea(number)) } else { Ok(corners) }
 }
 
-/// The first two edges of a ring that cross properly.
+/// Two edges of a ring that cross properly, the lower numbers first.
+///
+/// Edges are taken from left to right and compared with those whose range of
+/// x is still open, so that long coastlines are checked in little more than
+/// the time it takes to sort them.
 fn crossing(corners: &[Vec2]) -> Option<(usize, usize)> {
     let n = corners.len();
-    if n > MOST_CHECKED {
-        return None;
-    }
     let edge = |i: usize| (corners[i], corners[(i + 1) % n]);
-    let proper = |i: usize, j: usize| {
-        let ((a, b), (c, d)) = (edge(i), edge(j));
-        boxes_meet(a, b, c, d)
-            && cross(b - a, c - a) * cross(b - a, d - a) < 0.0
-            && cross(d - c, a - c) * cross(d - c, b - c) < 0.0
-    };
-    (0..n).flat_map(|i| (i + 2..n).map(move |j| (i, j))).find(|&(i, j)| proper(i, j))
+    let mut order: Vec<(f64, usize)> = (0..n).map(|i| (edge(i).0.x.min(edge(i).1.x), i)).collect();
+    order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let mut open: Vec<usize> = Vec::new();
+    for (left, i) in order {
+        let (a, b) = edge(i);
+        open.retain(|&j| edge(j).0.x.max(edge(j).1.x) >= left);
+        if let Some(&j) = open.iter().find(|&&j| cross_properly((a, b), edge(j))) {
+            return Some((i.min(j), i.max(j)));
+        }
+        open.push(i);
+    }
+    None
+}
+
+fn cross_properly((a, b): (Vec2, Vec2), (c, d): (Vec2, Vec2)) -> bool {
+    boxes_meet((a.inf(&b), a.sup(&b)), (c.inf(&d), c.sup(&d)))
+        && cross(b - a, c - a) * cross(b - a, d - a) < 0.0
+        && cross(d - c, a - c) * cross(d - c, b - c) < 0.0
 }
 
 fn signed_area(corners: &[Vec2]) -> f64 {

@@ -1,135 +1,213 @@
-//! `hof` as a stage: shapes in a record, histograms and a sentence out.
+//! `hof` as a stage: two shapes in a record, histograms and a sentence out.
 
 use std::collections::BTreeMap;
-use std::f64::consts::FRAC_PI_2;
-use std::fmt;
-use std::str::FromStr;
+use std::path::PathBuf;
 
-use serde::Deserialize;
-
-use super::polygon::{histogram, histogram_from, hybrid};
-use super::{Degree, Force, Relation, Shape, degree_of_truth, describe};
+use super::input::{Extent, Object, object};
+use super::polygon::{histograms, hybrid};
+use super::raster::{Fuzzy, Pair};
+use super::rose::picture;
+use super::{Description, Force, ForceName, Frame, FrameName, Histogram, Infinite, Relation};
+use crate::files::write_file;
 use crate::record::{DegreeOfTruth, Hof, HofForce, Note, Record, Stage, StageError};
 
-/// Directions of the histograms behind the degrees: two degrees each.
-const DEGREE_DIRECTIONS: usize = 180;
-
-/// A force as the user names it: a number r, or `hybrid`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ForceName {
-    /// d^−r.
-    Power(f64),
-    /// r = 0 near, r = 2 far.
-    Hybrid,
+/// Where pictures go: each to `FOLDER/ID.svg`.
+#[derive(Clone, Debug)]
+pub struct Pictures {
+    /// Made if it is not there.
+    pub folder: PathBuf,
+    /// Whether files that exist may go.
+    pub overwrite: bool,
 }
 
-impl FromStr for ForceName {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text.trim() {
-            "hybrid" => Ok(Self::Hybrid),
-            number => match number.parse::<f64>() {
-                Ok(r) if r.is_finite() => Ok(Self::Power(r)),
-                _ => Err(format!("`{number}` is no force; give a number such as 0 or 2, or `hybrid`")),
-            },
-        }
-    }
-}
-
-impl fmt::Display for ForceName {
-    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Self::Power(r) => write!(formatter, "{r}"),
-            Self::Hybrid => formatter.write_str("hybrid"),
-        }
-    }
-}
-
-/// Computes histograms of forces for records that hold two shapes, `a` and `b`.
+/// Computes histograms of forces for records that hold two shapes, `a` and `b`, and describes where `a` is of `b`.
 #[derive(Clone, Debug)]
 pub struct Describer {
     /// The forces wanted.
     pub forces: Vec<ForceName>,
     /// Directions of the histograms.
     pub directions: usize,
+    /// The frame in which directions are named.
+    pub frame: FrameName,
+    /// How memberships of fuzzy rasters combine.
+    pub fuzzy: Fuzzy,
+    /// Where to draw both objects and the histograms, when pictures are wanted.
+    pub pictures: Option<Pictures>,
 }
 
-/// A shape as GeoJSON has it.
-#[derive(Debug, Deserialize)]
-#[serde(tag = "type")]
-enum Geometry {
-    Polygon { coordinates: Vec<Vec<Vec<f64>>> },
-    MultiPolygon { coordinates: Vec<Vec<Vec<Vec<f64>>>> },
+/// What two objects of one kind yield.
+struct Measured {
+    histograms: Vec<Result<Histogram, Infinite>>,
+    relation: Relation,
 }
 
 impl Describer {
-    fn shape(record: &Record, key: &str) -> Result<Shape, StageError> {
-        let hint = "a GeoJSON Polygon or MultiPolygon geometry belongs there";
-        let geometry: Geometry = record.require(key, hint)?;
-        let parts = match geometry {
-            Geometry::Polygon { coordinates } => vec![coordinates],
-            Geometry::MultiPolygon { coordinates } => coordinates,
-        };
-        let mut plane = Vec::with_capacity(parts.len());
-        for part in &parts {
-            plane.push(part.iter().map(|ring| in_plane(ring, key)).collect::<Result<Vec<_>, _>>()?);
-        }
-        Shape::from_parts(&plane).map_err(|error| StageError::new(format!("`{key}`: {error}")))
-    }
-
-    fn measure(&self, a: &Shape, b: &Shape) -> Hof {
-        let near = hybrid(a, b);
-        let values = |name: &ForceName| {
-            let force = if let ForceName::Power(r) = name { Force::Power(*r) } else { near };
-            match histogram(a, b, force, self.directions) {
-                Ok(histogram) => HofForce::Values(histogram.values().to_vec()),
-                Err(_) => HofForce::Infinite("infinite".to_string()),
+    fn measure(&self, a: &Extent, b: &Extent) -> Result<Measured, StageError> {
+        match (a, b) {
+            (Extent::Polygons(a), Extent::Polygons(b)) => {
+                let forces = self.forces_with(|| hybrid(a, b));
+                let histograms = histograms(a, b, &forces, self.directions);
+                Ok(Measured { histograms, relation: Relation::between(a, b) })
             }
-        };
-        let relation = Relation::between(a, b);
-        let degrees = [0, 1, 2, 3].map(|quarter| degree(a, b, near, f64::from(quarter) * FRAC_PI_2));
-        Hof {
-            directions: self.directions,
-            forces: self.forces.iter().map(|name| (name.to_string(), values(name))).collect(),
-            degrees: named(degrees),
-            main_deg: relation.main_direction().map(f64::to_degrees),
-            distance_m: relation.distance(),
-            description: describe("A", "B", degrees, relation.surround(), relation.distance()),
+            (Extent::Cells(a), Extent::Cells(b)) => {
+                let pair =
+                    Pair::new(a, b, self.fuzzy).map_err(|error| StageError::new(format!("`a`, `b`: {error}")))?;
+                let histograms = pair.histograms(&self.forces_with(|| pair.hybrid()), self.directions);
+                Ok(Measured { histograms, relation: Relation::between_rasters(a, b, &pair) })
+            }
+            _ => Err(StageError::new("`a`, `b`: one has polygons and the other cells; give both in one form")),
         }
+    }
+
+    fn forces_with(&self, hybrid: impl Fn() -> Force) -> Vec<Force> {
+        let force = |name: &ForceName| if let ForceName::Power(r) = name { Force::Power(*r) } else { hybrid() };
+        self.forces.iter().map(force).collect()
+    }
+
+    fn frame_of(&self, record: &Record) -> Result<Frame, StageError> {
+        if self.frame == FrameName::Map {
+            return Ok(Frame::Map);
+        }
+        let wanted = "the frame needs it: radians, counter-clockwise from +x";
+        let heading: f64 = record.require("heading", wanted)?;
+        Ok(match self.frame {
+            FrameName::Map => Frame::Map,
+            FrameName::Robot | FrameName::Intrinsic => Frame::Body { heading },
+            FrameName::Viewer => Frame::Viewer { heading },
+            FrameName::Facing => Frame::facing(heading),
+        })
+    }
+
+    fn draw(&self, record: &Record, objects: [&Object; 2], measured: &Measured, hof: &Hof) -> Result<(), StageError> {
+        let Some(pictures) = &self.pictures else { return Ok(()) };
+        let id = record.id().ok_or_else(|| StageError::new("`id` is missing; pictures are named after it"))?;
+        let finite = self.forces.iter().zip(&measured.histograms);
+        let roses: Vec<(String, Histogram)> =
+            finite.filter_map(|(name, h)| Some((format!("F {name}"), h.as_ref().ok()?.clone()))).collect();
+        let [a, b] = objects;
+        let names = [spoken(a, "A"), spoken(b, "B")];
+        let svg = picture([&a.extent, &b.extent], [&names[0], &names[1]], &roses, &hof.description);
+        pictures.save(&id, &svg).map_err(StageError::new)
     }
 }
 
-fn in_plane(ring: &[Vec<f64>], key: &str) -> Result<Vec<[f64; 2]>, StageError> {
-    ring.iter()
-        .map(|position| match position.as_slice() {
-            [x, y, ..] => Ok([*x, *y]),
-            _ => Err(StageError::new(format!("`{key}`: a position needs two numbers"))),
-        })
-        .collect()
+impl Pictures {
+    fn save(&self, id: &str, svg: &str) -> Result<(), String> {
+        let plain = |c: char| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' };
+        let name: String = id.chars().map(plain).collect();
+        std::fs::create_dir_all(&self.folder).map_err(|error| format!("{}: {error}", self.folder.display()))?;
+        let path = self.folder.join(format!("{name}.svg"));
+        write_file(&path, svg.as_bytes(), self.overwrite).map_err(|error| error.to_string())
+    }
 }
 
-fn degree(a: &Shape, b: &Shape, near: Force, angle: f64) -> Degree {
-    let degrees = [Force::Power(0.0), near].map(|force| {
-        histogram_from(a, b, force, DEGREE_DIRECTIONS, angle).map_or(Degree::default(), |h| degree_of_truth(&h, 0))
-    });
-    Degree { a: (degrees[0].a + degrees[1].a) / 2.0, b: degrees[0].b.min(degrees[1].b) }
-}
-
-fn named(degrees: [Degree; 4]) -> BTreeMap<String, DegreeOfTruth> {
-    let names = ["right", "above", "left", "below"];
-    names.into_iter().zip(degrees).map(|(name, d)| (name.to_string(), DegreeOfTruth { a: d.a, b: d.b })).collect()
+/// "the couch" for an object that has a name.
+fn spoken(object: &Object, otherwise: &str) -> String {
+    object.name.as_ref().map_or_else(|| otherwise.to_string(), |name| format!("the {name}"))
 }
 
 impl Stage for Describer {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
-        let (a, b) = (Self::shape(record, "a")?, Self::shape(record, "b")?);
-        record.set("hof", &self.measure(&a, &b));
+        let (a, b) = (object(record, "a")?, object(record, "b")?);
+        let frame = self.frame_of(record)?;
+        let measured = self.measure(&a.extent, &b.extent)?;
+        let description = Description::of(&measured.relation, frame);
+        let names = frame.directions().map(|words| words.name.to_string());
+        let degrees = description.degrees.map(|d| DegreeOfTruth { a: rounded(d.a, 1e6), b: rounded(d.b, 1e6) });
+        let hof = Hof {
+            directions: self.directions,
+            forces: self.forces.iter().map(ToString::to_string).zip(measured.histograms.iter().map(values)).collect(),
+            degrees: BTreeMap::from_iter(names.into_iter().zip(degrees)),
+            main_deg: measured.relation.main_direction().map(|theta| rounded(theta.to_degrees(), 1e2)),
+            distance_m: rounded(measured.relation.distance(), 1e6),
+            description: description.sentence(&spoken(&a, "A"), &spoken(&b, "B")),
+        };
+        self.draw(record, [&a, &b], &measured, &hof)?;
+        record.set("hof", &hof);
         Ok(Note::Done)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
         let hof: Hof = record.require("hof", "it is what `hof` adds")?;
         Ok(hof.description)
+    }
+}
+
+fn values(histogram: &Result<Histogram, Infinite>) -> HofForce {
+    match histogram {
+        Ok(histogram) => HofForce::Values(histogram.values().iter().map(|v| twelve_digits(*v)).collect()),
+        Err(Infinite) => HofForce::Infinite("infinite".to_string()),
+    }
+}
+
+fn rounded(value: f64, per_unit: f64) -> f64 {
+    (value * per_unit).round() / per_unit + 0.0
+}
+
+/// Twelve significant digits: what is left is rounding, and may differ between machines.
+fn twelve_digits(value: f64) -> f64 {
+    if value == 0.0 || !value.is_normal() {
+        return 0.0;
+    }
+    let places = 11 - value.abs().log10().floor() as i32;
+    if !(-290..=290).contains(&places) {
+        return value;
+    }
+    let scale = 10.0_f64.powi(places.abs());
+    if places >= 0 { (value * scale).round() / scale } else { (value / scale).round() * scale }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn describer(frame: FrameName) -> Describer {
+        let forces = vec![ForceName::Power(0.0), ForceName::Power(2.0), ForceName::Hybrid];
+        Describer { forces, directions: 16, frame, fuzzy: Fuzzy::Product, pictures: None }
+    }
+
+    fn run(frame: FrameName, line: &str) -> Result<Hof, StageError> {
+        let mut record = Record::parse(line).expect("a record");
+        describer(frame).run(&mut record)?;
+        Ok(record.get("hof").expect("readable").expect("added"))
+    }
+
+    const TOUCHING: &str = r#"{"id":1,"heading":1.5707963267948966,
+        "a":{"name":"table","type":"Polygon","coordinates":[[[1,0],[2,0],[2,1],[1,1],[1,0]]]},
+        "b":{"name":"couch","type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,1],[0,0]]]}}"#;
+
+    #[test]
+    fn forces_that_diverge_are_called_infinite() {
+        let hof = run(FrameName::Map, TOUCHING).expect("described");
+        assert_eq!(hof.forces["2"], HofForce::Infinite("infinite".to_string()));
+        assert!(matches!(hof.forces["hybrid"], HofForce::Values(_)));
+        assert_eq!((hof.distance_m, hof.main_deg), (0.0, Some(0.0)));
+    }
+
+    #[test]
+    fn directions_are_named_in_the_frame_asked_for() {
+        let said = |frame| run(frame, TOUCHING).expect("described").description;
+        let right = "The table is directly to the right of the couch, touching it; the description is satisfactory.";
+        assert_eq!(said(FrameName::Robot), right);
+        assert_eq!(said(FrameName::Facing), right.replace("right", "left"));
+    }
+
+    #[test]
+    fn a_frame_without_a_heading_says_what_it_misses() {
+        let error = run(FrameName::Viewer, &TOUCHING.replace("heading", "x")).expect_err("no heading");
+        assert!(error.message.contains("`heading`: missing; the frame needs it"), "{error}");
+    }
+
+    #[test]
+    fn polygons_and_cells_do_not_mix() {
+        let line = r##"{"a":{"grid":{"rows":["#"],"cell_m":1}},"b":{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]]]}}"##;
+        assert!(run(FrameName::Map, line).expect_err("mixed").message.contains("give both in one form"));
+    }
+
+    #[test]
+    fn numbers_keep_twelve_digits() {
+        assert_eq!(twelve_digits(1.0 / 3.0), 0.333_333_333_333);
+        assert_eq!(twelve_digits(2.0e20 / 3.0), 66_666_666_666_700_000_000.0);
+        assert_eq!(twelve_digits(0.0), 0.0);
     }
 }

@@ -1,0 +1,243 @@
+//! A ray through the covariogram: its pieces, and the forces along it.
+//!
+//! The ray is followed column by column along the axis it is closer to. Within
+//! a column it crosses at most one line of nodes, so each column is two pieces,
+//! the second one often empty: no branches, and eight columns side by side.
+
+use multiversion::multiversion;
+
+use super::super::Force;
+use super::correlation::{Count, Counts, Covariogram, Frame};
+use super::piece::Piece;
+
+/// Columns worked on at a time.
+const BLOCK: usize = 64;
+/// Before this column pieces are long for their distance, and integrate in closed form.
+const NEAR_COLUMNS: i32 = 8;
+
+/// Pieces in the order of the ray, one array per quantity.
+#[derive(Clone, Debug)]
+struct Pieces {
+    middle: [f64; BLOCK],
+    half: [f64; BLOCK],
+    q: [[f64; BLOCK]; 3],
+}
+
+/// C at the six nodes of each column: three on either side of it.
+#[derive(Clone, Debug)]
+struct Nodes {
+    near: [[f64; BLOCK]; 3],
+    far: [[f64; BLOCK]; 3],
+    /// Where the ray enters the column, from the first node's line, 0 to 1.
+    entry: [f64; BLOCK],
+}
+
+/// The way of a ray through the table.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    /// Components of the direction along the closer axis and across it, both positive.
+    main: f64,
+    cross: f64,
+    /// Steps in the table along and across, and the place of the origin.
+    main_step: i64,
+    cross_step: i64,
+    origin: i64,
+    /// The columns in which C may differ from zero.
+    columns: (i32, i32),
+}
+
+impl Way {
+    fn new(frame: &Frame, sin: f64, cos: f64) -> Self {
+        let stride = frame.stride() as i64;
+        let along_x = (cos, 1, (frame.low.0, frame.high.0));
+        let along_y = (sin, stride, (frame.low.1, frame.high.1));
+        let (main, cross) = if cos.abs() >= sin.abs() { (along_x, along_y) } else { (along_y, along_x) };
+        let forward = |(component, step, (low, high)): (f64, i64, (i32, i32))| {
+            if component < 0.0 { (-component, -step, (-high, -low)) } else { (component.abs(), step, (low, high)) }
+        };
+        let ((main, main_step, reach), (cross, cross_step, side)) = (forward(main), forward(cross));
+        let columns = columns(cross / main, reach, side);
+        Self { main, cross, main_step, cross_step, origin: frame.origin(), columns }
+    }
+}
+
+/// The columns where the ray y = slope·x is within the box, its margin aside.
+fn columns(slope: f64, reach: (i32, i32), side: (i32, i32)) -> (i32, i32) {
+    if slope <= 0.0 {
+        let within = side.0 < 0 && side.1 > 0;
+        return if within { (reach.0.max(0), reach.1) } else { (0, 0) };
+    }
+    let first = (f64::from(side.0.max(0)) / slope).floor();
+    let last = (f64::from(side.1.max(0)) / slope).ceil();
+    // `as` saturates, which is what is wanted of a nearly level ray.
+    let first = if side.0 > 0 { (first as i32).saturating_sub(1) } else { 0 };
+    (reach.0.max(0).max(first), reach.1.min(last as i32))
+}
+
+/// Sums forces along rays.
+#[derive(Debug)]
+pub(super) struct Rays {
+    forces: Vec<Force>,
+    sums: Vec<f64>,
+    nodes: Nodes,
+    pieces: [Pieces; 2],
+}
+
+impl Rays {
+    /// Rays for forces in units of cells.
+    pub(super) fn new(forces: Vec<Force>) -> Self {
+        let zeros = [0.0; BLOCK];
+        let pieces = || Pieces { middle: [1.0; BLOCK], half: zeros, q: [zeros; 3] };
+        let nodes = Nodes { near: [zeros; 3], far: [zeros; 3], entry: zeros };
+        Self { sums: vec![0.0; forces.len()], forces, nodes, pieces: [pieces(), pieces()] }
+    }
+
+    /// The resultant of each force in one direction, in units of cells.
+    pub(super) fn resultants(&mut self, c: &Covariogram, sin: f64, cos: f64) -> impl Iterator<Item = f64> + '_ {
+        let way = Way::new(&c.frame, sin, cos);
+        self.sums.fill(0.0);
+        match &c.table {
+            Counts::Narrow(table) => self.follow(table, way),
+            Counts::Wide(table) => self.follow(table, way),
+        }
+        let unit = c.unit;
+        self.sums.iter().map(move |sum| sum * unit)
+    }
+
+    fn follow<T: Count>(&mut self, table: &[T], way: Way) {
+        let (mut from, end) = way.columns;
+        while from < end {
+            let to = if from < NEAR_COLUMNS { NEAR_COLUMNS.min(end) } else { (from + BLOCK as i32).min(end) };
+            let count = (to - from) as usize;
+            read_nodes(table, way, from, count, &mut self.nodes);
+            cut(&self.nodes, way, from, &mut self.pieces);
+            if from < NEAR_COLUMNS {
+                self.add_near(count)
+            } else {
+                self.add_far(count)
+            }
+            from = to;
+        }
+    }
+
+    fn add_near(&mut self, count: usize) {
+        for (force, sum) in self.forces.iter().zip(&mut self.sums) {
+            *sum += one_by_one(&self.pieces, count, *force);
+        }
+    }
+
+    fn add_far(&mut self, count: usize) {
+        let (first, last) = (&self.pieces[0], &self.pieces[1]);
+        let (begin, end) = (first.middle[0] - first.half[0], last.middle[count - 1] + last.half[count - 1]);
+        for (force, sum) in self.forces.iter().zip(&mut self.sums) {
+            *sum += match *force {
+                Force::Power(0.0) => constant(&self.pieces, count),
+                Force::Power(2.0) => gravitational(&self.pieces, count),
+                Force::Hybrid(y0) if end <= y0 => constant(&self.pieces, count) / (y0 * y0),
+                Force::Hybrid(y0) if begin >= y0 => gravitational(&self.pieces, count),
+                other => one_by_one(&self.pieces, count, other),
+            };
+        }
+    }
+}
+
+fn one_by_one(pieces: &[Pieces; 2], count: usize, force: Force) -> f64 {
+    let piece = |p: &Pieces, i: usize| Piece { middle: p.middle[i], half: p.half[i], q: p.q.map(|q| q[i]) };
+    (0..count).map(|i| piece(&pieces[0], i).force(force) + piece(&pieces[1], i).force(force)).sum()
+}
+
+/// Reads C at the nodes about the ray in the columns from `from` on; what is left of the block becomes zero.
+fn read_nodes<T: Count>(table: &[T], way: Way, from: i32, count: usize, nodes: &mut Nodes) {
+    let slope = way.cross / way.main;
+    for i in 0..count {
+        let column = from + i as i32;
+        let height = f64::from(column) * slope;
+        let line = height as i64;
+        nodes.entry[i] = height - line as f64;
+        let near = (way.origin + i64::from(column) * way.main_step + line * way.cross_step) as usize;
+        let (cross, main) = (way.cross_step as usize, way.main_step as usize);
+        for k in 0..3 {
+            // Steps may be negative: they wrap, and so does the sum.
+            let place = near.wrapping_add(cross.wrapping_mul(k));
+            nodes.near[k][i] = table[place].value();
+            nodes.far[k][i] = table[place.wrapping_add(main)].value();
+        }
+    }
+    for k in 0..3 {
+        nodes.near[k][count..].fill(0.0);
+        nodes.far[k][count..].fill(0.0);
+    }
+}
+
+/// Cuts the columns of a block into pieces, before and after the line of nodes that the ray crosses.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn cut(nodes: &Nodes, way: Way, from: i32, pieces: &mut [Pieces; 2]) {
+    let slope = way.cross / way.main;
+    let per_main = 1.0 / way.main;
+    let [before, after] = pieces;
+    for i in 0..BLOCK {
+        let entry = nodes.entry[i];
+        // Where the ray crosses the next line of nodes, as a share of the column.
+        let crossing = ((1.0 - entry) / slope).clamp(0.0, 1.0);
+        let column = f64::from(from) + i as f64;
+        let lower = [nodes.near[0][i], nodes.far[0][i], nodes.near[1][i], nodes.far[1][i]];
+        let upper = [nodes.near[1][i], nodes.far[1][i], nodes.near[2][i], nodes.far[2][i]];
+        let middle = 0.5 * crossing;
+        before.middle[i] = (column + middle) * per_main;
+        before.half[i] = middle * per_main;
+        let q = quadratic(lower, middle, entry + slope * middle, way.main, way.cross);
+        (before.q[0][i], before.q[1][i], before.q[2][i]) = q;
+        let middle = 0.5 * (1.0 + crossing);
+        after.middle[i] = (column + middle) * per_main;
+        after.half[i] = 0.5 * (1.0 - crossing) * per_main;
+        let q = quadratic(upper, middle, entry + slope * middle - 1.0, way.main, way.cross);
+        (after.q[0][i], after.q[1][i], after.q[2][i]) = q;
+    }
+}
+
+/// The bilinear function with the given corners, along a direction about the place (x, y).
+#[inline(always)]
+fn quadratic([c00, c10, c01, c11]: [f64; 4], x: f64, y: f64, main: f64, cross: f64) -> (f64, f64, f64) {
+    let (by_x, by_y) = (c10 - c00, c01 - c00);
+    let twist = c11 - c10 - by_y;
+    let (rise_x, rise_y) = (by_x + twist * y, by_y + twist * x);
+    (c00 + rise_x * x + by_y * y, rise_x * main + rise_y * cross, twist * main * cross)
+}
+
+const LANES: usize = 8;
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn constant(pieces: &[Pieces; 2], count: usize) -> f64 {
+    let mut sums = [0.0; LANES];
+    for p in pieces {
+        for start in (0..count.next_multiple_of(LANES)).step_by(LANES) {
+            for i in 0..LANES {
+                let (half, q0, q2) = (p.half[start + i], p.q[0][start + i], p.q[2][start + i]);
+                sums[i] += 2.0 * half * (q0 + q2 * (half * half * (1.0 / 3.0)));
+            }
+        }
+    }
+    sums.iter().sum()
+}
+
+/// ∫ C(t)/t² dt over pieces with x = half/middle ≤ 1/16, by the series of its three moments.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn gravitational(pieces: &[Pieces; 2], count: usize) -> f64 {
+    let mut sums = [0.0; LANES];
+    for p in pieces {
+        for start in (0..count.next_multiple_of(LANES)).step_by(LANES) {
+            for i in 0..LANES {
+                let (middle, half) = (p.middle[start + i], p.half[start + i]);
+                let inverse = 1.0 / middle;
+                let x = half * inverse;
+                let z = x * x;
+                let whole = 1.0 + z * (1.0 + z * (1.0 + z * (1.0 + z * (1.0 + z * (1.0 + z)))));
+                let first = z * (2.0 / 3.0 + z * (4.0 / 5.0 + z * (6.0 / 7.0 + z * (8.0 / 9.0 + z * (10.0 / 11.0)))));
+                let second = z * (1.0 / 3.0 + z * (3.0 / 5.0 + z * (5.0 / 7.0 + z * (7.0 / 9.0 + z * (9.0 / 11.0)))));
+                let (q0, q1, q2) = (p.q[0][start + i], p.q[1][start + i], p.q[2][start + i]);
+                sums[i] += 2.0 * x * (q0 * whole * inverse - q1 * first + q2 * second * middle);
+            }
+        }
+    }
+    sums.iter().sum()
+}
