@@ -67,6 +67,7 @@ impl Grounder {
         }
         if grounding.room.is_none() && grounding.object.is_none() && grounding.nodes.is_empty() {
             grounding.score = 0.0.into();
+            grounding.margin = 0.0.into();
             grounding.problems.push("no room, furniture, move or object was recognised in this text".to_string());
         }
         grounding

@@ -189,6 +189,8 @@ pub struct Lexicon {
     words: HashMap<String, (String, Role)>,
     /// From the first word of names of several words to the number of words in the longest.
     starts: HashMap<String, usize>,
+    /// What a word that is written otherwise means.
+    spellings: HashMap<String, String>,
 }
 
 impl Lexicon {
@@ -200,6 +202,7 @@ impl Lexicon {
             // Both files are embedded and tested; a broken line would only be left out.
             let _ = lexicon.add_nouns(include_str!("../../corpus/lexicon/nouns.tsv"), "nouns.tsv");
             let _ = lexicon.add_words(include_str!("../../corpus/lexicon/words.tsv"), "words.tsv");
+            let _ = lexicon.add_spellings(include_str!("../../corpus/lexicon/spellings.tsv"), "spellings.tsv");
             lexicon
         })
     }
@@ -258,6 +261,26 @@ impl Lexicon {
             }
         }
         Ok(())
+    }
+
+    /// Adds spellings: lines of `written TAB meant`; only a word that means nothing as written is read otherwise.
+    pub fn add_spellings(&mut self, text: &str, file: &str) -> Result<(), LexiconError> {
+        for (line, fields) in lines(text) {
+            let wrong = |message: String| LexiconError { file: file.to_string(), line, message };
+            let [written, meant] = fields[..] else {
+                return Err(wrong("a spelling needs what is written, a tab and what is meant".to_string()));
+            };
+            if self.word(meant).is_none() && self.noun(meant).is_none() {
+                return Err(wrong(format!("`{meant}` is no word of the lexicon")));
+            }
+            self.spellings.insert(written.to_string(), meant.to_string());
+        }
+        Ok(())
+    }
+
+    /// What a word means that is written otherwise.
+    pub fn spelling(&self, written: &str) -> Option<&str> {
+        self.spellings.get(written).map(String::as_str)
     }
 
     /// The class of a noun given in lower_snake or as words.
@@ -350,7 +373,11 @@ mod tests {
         let mut lexicon = Lexicon::default();
         lexicon.add_nouns(include_str!("../../corpus/lexicon/nouns.tsv"), "nouns.tsv").expect("good nouns");
         lexicon.add_words(include_str!("../../corpus/lexicon/words.tsv"), "words.tsv").expect("good words");
-        assert!(lexicon.nouns().len() > 200);
+        let spellings = include_str!("../../corpus/lexicon/spellings.tsv");
+        lexicon.add_spellings(spellings, "spellings.tsv").expect("good spellings");
+        let count = |fits: fn(Class) -> bool| lexicon.nouns().iter().filter(|noun| fits(noun.class)).count();
+        assert!(count(|class| class != Class::Object && class != Class::Room) >= 150, "furniture and structure");
+        assert!(count(|class| class == Class::Object) >= 300, "portable objects");
     }
 
     #[test]

@@ -144,7 +144,10 @@ impl Cursor<'_> {
             if self.is(at + 2, &["of"]) && hearer(at + 3) {
                 return Some(at + 4);
             }
-            return (!self.is(at + 2, &["of"])).then_some(at + 2);
+            // "In front the couch": "of" was lost.
+            let of_lost = self.role(at + 2) == Some(Role::Determiner)
+                && self.noun_phrase(at + 2, false).is_some_and(|n| self.class(n.head).is_some_and(Class::is_furniture));
+            return (!self.is(at + 2, &["of"]) && !of_lost).then_some(at + 2);
         }
         (self.is(at, &["behind"]) && hearer(at + 1)).then_some(at + 2)
     }

@@ -75,7 +75,15 @@ fn longest<'l>(words: &[Word<'l>], at: usize, lexicon: &'l Lexicon) -> Unit<'l> 
         }
     }
     let before = at.checked_sub(1).map_or("", |before| words[before].lower.as_ref());
-    Unit { first: at, past: at + 1, lower: words[at].lower.clone(), kind: kind_of(&words[at].lower, before, lexicon) }
+    let mut lower = words[at].lower.clone();
+    let mut kind = kind_of(&lower, before, lexicon);
+    if kind == UnitKind::Unknown
+        && let Some(meant) = lexicon.spelling(&lower)
+    {
+        lower = Cow::Borrowed(meant);
+        kind = kind_of(&lower, before, lexicon);
+    }
+    Unit { first: at, past: at + 1, lower, kind }
 }
 
 /// Words after which a noun may stand: only there is a misspelt noun looked for.
@@ -105,7 +113,9 @@ fn kind_of<'l>(lower: &str, before: &str, lexicon: &'l Lexicon) -> UnitKind<'l> 
 fn is_set_aside(unit: &Unit, before: Option<&Unit>) -> bool {
     let light = unit.kind == UnitKind::Unknown && !unit.lower.chars().any(char::is_alphanumeric);
     let addressee_clitic = unit.lower == "'s" && before.is_none();
-    light || addressee_clitic || matches!(unit.role(), Some(Role::Filler | Role::Addressee))
+    // "The the table": a stumble.
+    let again = before.is_some_and(|before| before.past == unit.first && before.lower == unit.lower);
+    light || addressee_clitic || again || matches!(unit.role(), Some(Role::Filler | Role::Addressee))
 }
 
 /// Words after which "right" only strengthens: "right on the table", "right behind".
@@ -117,6 +127,7 @@ const AFTER_EMPHASIS: [&str; 22] = [
 /// "right on the table" is emphasis; "i left my keys" is a verb.
 fn settle_ambiguous(units: &mut [Unit]) {
     for i in 0..units.len() {
+        settle_homophone(units, i);
         let side = matches!(units[i].lower.as_ref(), "right" | "left");
         if !side {
             continue;
@@ -132,6 +143,18 @@ fn settle_ambiguous(units: &mut [Unit]) {
             units[i].kind = UnitKind::Word(Role::Bring);
         }
     }
+}
+
+/// "Two the left" is "to the left"; "their is" is "there is".
+fn settle_homophone(units: &mut [Unit], i: usize) {
+    let next = units.get(i + 1).and_then(Unit::role);
+    let meant = match (units[i].lower.as_ref(), next) {
+        ("two", Some(Role::Determiner | Role::Hearer)) => ("to", Role::Preposition),
+        ("their", Some(Role::Copula | Role::Modal)) => ("there", Role::There),
+        _ => return,
+    };
+    units[i].lower = Cow::Borrowed(meant.0);
+    units[i].kind = UnitKind::Word(meant.1);
 }
 
 /// Words after which "right" is a side.
