@@ -8,12 +8,12 @@ use serde::Serialize;
 
 use super::brackets::brackets_of;
 use super::{Gold, Rate};
-use crate::behavior::{Options, Silent};
+use crate::behavior::Silent;
 use crate::grounding::{Grounder, Method};
 use crate::language::chunk_text;
 use crate::planning::Planner;
 use crate::record::{Chunk, Direction, Grounding, Outcome, Record, Rounded, Tag, Trial};
-use crate::trial::{Home, run};
+use crate::trial::{Home, Settings, run, stream_of};
 
 /// The scores of one group of descriptions. A stage that no record has reached is not counted.
 #[derive(Clone, Debug, Default, Serialize, JsonSchema)]
@@ -202,7 +202,7 @@ fn side_of_name(name: Option<&str>) -> Option<Direction> {
 }
 
 /// Runs a corpus end to end in `home`, from the text, and returns the records as JSON lines in the corpus's order.
-pub fn run_corpus(gold: &[Gold], home: &Home, options: Options) -> Vec<String> {
+pub fn run_corpus(gold: &[Gold], home: &Home, settings: &Settings) -> Vec<String> {
     let planner = Planner::new(home.map.clone());
     let grounder = Grounder::new(Method::Composed, true);
     gold.par_iter()
@@ -210,7 +210,7 @@ pub fn run_corpus(gold: &[Gold], home: &Home, options: Options) -> Vec<String> {
             let (tokens, chunks) = chunk_text(&gold.text);
             let grounding = grounder.ground(&gold.text, &tokens, &chunks);
             let plan = planner.plan(&grounding);
-            let trial = run(home, &plan, options, &mut Silent).trial;
+            let trial = run(home, &plan, settings, stream_of(&gold.id), &mut Silent).trial;
             let mut record = Record::from_text(&gold.id, &gold.text);
             record.set("tokens", &tokens);
             record.set("chunks", &chunks);
@@ -250,7 +250,7 @@ mod tests {
     fn the_own_templates_end_to_end_find_what_they_name_without_a_collision() {
         let gold = own();
         let home = Home::load(None, None).expect("the apartment");
-        let scores = score(&gold, &run_corpus(&gold, &home, Options::default())).expect("scored");
+        let scores = score(&gold, &run_corpus(&gold, &home, &Settings::default())).expect("scored");
         assert!(scores.all.found.hit + 1 >= gold.len(), "found {} of {}", scores.all.found.hit, gold.len());
         assert_eq!(scores.all.collisions, 0);
         assert!(scores.all.command.share() > 0.9 && scores.all.right_first.share() > 0.85);

@@ -8,9 +8,11 @@ mod home;
 mod judge;
 mod outputs;
 mod run;
+mod settings;
 mod stage;
 
 pub use home::Home;
 pub use outputs::Outputs;
 pub use run::{Run, run};
+pub use settings::{Perception, Settings, stream_of};
 pub use stage::Driver;

@@ -1,9 +1,10 @@
 //! Runs one plan in a home.
 
-use super::Home;
 use super::judge::judge;
-use crate::behavior::{Executive, Options, Watcher};
+use super::{Home, Perception, Settings};
+use crate::behavior::{Executive, Watcher};
 use crate::geometry::{Pose, Vec2};
+use crate::perception::Eyes;
 use crate::perception::truth::TruthEyes;
 use crate::record::{Action, PathPoint, Plan, Trial};
 use crate::robot::MobileBase;
@@ -20,12 +21,15 @@ pub struct Run {
     pub found_at: Option<Vec2>,
 }
 
-/// Runs `plan` in `home` with ideal eyes.
-pub fn run(home: &Home, plan: &Plan, options: Options, watcher: &mut dyn Watcher) -> Run {
+/// Runs `plan` in `home`. `stream` picks the record's own random numbers under the seed ([`super::stream_of`]).
+pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: &mut dyn Watcher) -> Run {
+    let _ = stream;
     let mut base = SimulatedBase::new(Obstacles::new(&home.map, &home.scene), home.map.start);
     let truth = base.truth();
-    let mut eyes = TruthEyes::new(&home.map, home.shared_scene(), base.truth());
-    let report = Executive::new(&home.map, &mut base, &mut eyes, watcher, options).run(plan);
+    let mut eyes: Box<dyn Eyes> = match settings.perception {
+        Perception::Truth => Box::new(TruthEyes::new(&home.map, home.shared_scene(), base.truth())),
+    };
+    let report = Executive::new(&home.map, &mut base, eyes.as_mut(), watcher, settings.options).run(plan);
     let duration_s = base.time_s();
     let truth = truth.borrow().clone();
     let verdict = judge(home, object_of(plan), &report.approached, report.found_at, report.outcome, truth.distance_m);

@@ -1,8 +1,8 @@
 //! `drive` as a stage of the pipeline.
 
 use super::outputs::{Outputs, Recorder, file_name};
-use super::{Home, Run, run};
-use crate::behavior::{Options, Silent};
+use super::{Home, Run, Settings, run, stream_of};
+use crate::behavior::Silent;
 use crate::files::{FileError, write_file};
 use crate::record::{Note, Plan, Record, Stage, StageError, Trial};
 
@@ -12,7 +12,7 @@ pub struct Driver {
     /// Where.
     pub home: Home,
     /// How.
-    pub options: Options,
+    pub settings: Settings,
     /// What to leave beside the record.
     pub outputs: Outputs,
 }
@@ -20,14 +20,14 @@ pub struct Driver {
 impl Driver {
     fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
         let Some(path) = &self.outputs.record else {
-            let mut run = run(&self.home, plan, self.options, &mut Silent);
+            let mut run = run(&self.home, plan, &self.settings, stream_of(id), &mut Silent);
             self.leave(&mut run, record, id)?;
             record.set("trial", &run.trial);
             return Ok(());
         };
         let path = Outputs::named(path, id);
         let mut recorder = Recorder::new(&path, self.outputs.force, &self.home).map_err(StageError::new)?;
-        let mut run = run(&self.home, plan, self.options, &mut recorder);
+        let mut run = run(&self.home, plan, &self.settings, stream_of(id), &mut recorder);
         self.leave(&mut run, record, id)?;
         record.set("trial", &run.trial);
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;

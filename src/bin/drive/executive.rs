@@ -1,0 +1,40 @@
+//! What the executive may do.
+
+use clap::Args;
+use spatial_fetch::behavior::Options;
+
+#[derive(Args)]
+#[command(next_help_heading = "Executive")]
+pub struct Arguments {
+    /// Room and object only, nearest table first: the yardstick for what the words are worth
+    #[arg(long)]
+    blind: bool,
+    /// Read each relation in its likeliest frame of reference only
+    #[arg(long)]
+    one_frame: bool,
+    /// Use the first reference-direction pair only
+    #[arg(long)]
+    first_pair_only: bool,
+    /// Do not try furniture the words do not fit
+    #[arg(long)]
+    no_fallback: bool,
+    /// Do not go straight to an object recognised in passing: let the words alone choose
+    #[arg(long)]
+    no_glance: bool,
+    /// Seconds of robot time a trial may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 900.0)]
+    time_limit: f64,
+}
+
+impl Arguments {
+    pub fn options(&self) -> Options {
+        Options {
+            blind: self.blind,
+            one_frame: self.one_frame,
+            first_pair_only: self.first_pair_only,
+            no_fallback: self.no_fallback,
+            no_glance: self.no_glance,
+            time_limit_s: self.time_limit,
+        }
+    }
+}

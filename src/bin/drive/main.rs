@@ -1,0 +1,61 @@
+//! Plans in, trials out.
+
+mod executive;
+mod outputs;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
+use spatial_fetch::record::Trial;
+use spatial_fetch::trial::{Driver, Home, Perception, Settings};
+
+/// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
+///
+/// Reads records that `plan` has read and adds "trial".
+#[derive(Parser)]
+#[command(
+    name = "drive",
+    version,
+    after_help = "Example:\n  echo 'my mug is on the table by the chairs in the bedroom' | chunk | ground | plan | drive --format text"
+)]
+struct Arguments {
+    /// Room map [default: the apartment]
+    #[arg(long, value_name = "FILE", requires = "scene")]
+    map: Option<PathBuf>,
+    /// Furniture and objects of the simulated home [default: the apartment as first furnished]
+    #[arg(long, value_name = "FILE")]
+    scene: Option<PathBuf>,
+    /// What the robot's eyes report
+    #[arg(long, value_enum, default_value = "truth")]
+    perception: Perception,
+    #[command(flatten)]
+    executive: executive::Arguments,
+    #[command(flatten)]
+    outputs: outputs::Arguments,
+    #[command(flatten)]
+    common: Common,
+}
+
+impl Program for Arguments {
+    const NAME: &'static str = "drive";
+    fn common(&self) -> &Common {
+        &self.common
+    }
+    fn schema() -> schemars::Schema {
+        schemars::schema_for!(Trial)
+    }
+    fn run(self) -> Result<Exit, Failure> {
+        let home =
+            Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
+        let settings =
+            Settings { options: self.executive.options(), perception: self.perception, seed: self.common.seed };
+        let outputs = self.outputs.outputs(self.common.force);
+        cli::run_filter(Self::NAME, &self.common, Intake::Records, &Driver { home, settings, outputs })
+    }
+}
+
+fn main() -> ExitCode {
+    cli::main::<Arguments>()
+}

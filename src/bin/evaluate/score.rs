@@ -1,0 +1,26 @@
+//! `evaluate score`: piped records against gold.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use spatial_fetch::cli::{self, Common, Exit, Failure, Table};
+use spatial_fetch::evaluation::score;
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Gold descriptions [default: the shipped templates]
+    #[arg(long, value_name = "FILE")]
+    gold: Option<PathBuf>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+impl Arguments {
+    pub fn run(self) -> Result<Exit, Failure> {
+        let gold = cli::load_gold(self.gold.as_deref())?;
+        let lines = cli::read_lines(&self.common.files)?;
+        let scores = score(&gold, &lines).map_err(Failure::Failed)?;
+        let title = format!("{} descriptions, {} records", gold.len(), lines.len());
+        cli::write_scores(&self.common, &Table { title, scores })
+    }
+}
