@@ -18,6 +18,7 @@
 //! | [`drawing`] | plots of rooms, furniture and paths | |
 //! | [`recording`] | MCAP in and out | |
 //! | [`world`] | room map, furniture models, scene, what sensors see of it | |
+//! | [`frame`] | one RGB-D frame: colour, depth, intrinsics, camera pose | |
 //! | [`force`] | histogram of forces, degrees of truth | `hof` |
 //! | [`geometry`] | pose, polygon, grid | |
 //! | [`files`] | files that appear whole or not at all | |
@@ -29,6 +30,7 @@ pub mod drawing;
 pub mod evaluation;
 pub mod files;
 pub mod force;
+pub mod frame;
 pub mod geometry;
 pub mod grounding;
 pub mod language;

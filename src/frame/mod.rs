@@ -1,0 +1,36 @@
+//! One RGB-D frame: what a Kinect gives, real, recorded or simulated.
+//!
+//! The type that cameras, recordings and perception share; nothing here knows
+//! where a frame comes from or what is in it.
+
+/// Focal lengths and principal point of a pinhole camera, pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Intrinsics {
+    /// Focal length across.
+    pub fx: f64,
+    /// Focal length down.
+    pub fy: f64,
+    /// Principal point, column.
+    pub cx: f64,
+    /// Principal point, row.
+    pub cy: f64,
+}
+
+/// Colour and depth, registered pixel by pixel, row by row from the top left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RgbdFrame {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// Red, green, blue; empty when there is no colour picture.
+    pub color: Vec<[u8; 3]>,
+    /// Depth along the optical axis in units of [`RgbdFrame::depth_unit_m`]; 0 where nothing came back.
+    pub depth: Vec<u16>,
+    /// Metres per unit of depth: 0.001 for millimetres.
+    pub depth_unit_m: f64,
+    /// The camera.
+    pub intrinsics: Intrinsics,
+    /// Camera optical frame (x right, y down, z ahead) to world (z up, floor at 0), 4 × 4 by rows, metres.
+    pub world_from_camera: [[f64; 4]; 4],
+}
