@@ -203,7 +203,7 @@ mod tests {
 
     #[test]
     fn two_of_the_same_have_no_direction() {
-        let corners = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let cross = Shape::from_ring(corners.iter().map(|[x, y]| [x - y, x + y - 0.5]).collect());
         assert_eq!(said(&cross, &cross), "The box is inside the bed.");
     }
