@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
+use super::frame_files::check;
 use super::{Detector, FrameFiles};
+use crate::frame::RgbdFrame;
 use crate::record::{Detection, Note, Record, Stage, StageError};
 
 /// Finds furniture in the depth pictures that records name.
@@ -12,6 +14,17 @@ pub struct Perceiver {
     pub folder: PathBuf,
     /// What finds it.
     pub detector: Detector,
+}
+
+impl Perceiver {
+    /// Adds what a frame shows to its record.
+    pub fn see(&self, frame: &RgbdFrame, record: &mut Record) -> Result<Note, StageError> {
+        check(frame).map_err(|error| StageError::new(error.to_string()))?;
+        let view = self.detector.detect(frame, None);
+        let detections: Vec<Detection> = view.furniture.into_iter().map(rounded).collect();
+        record.set("detections", &detections);
+        Ok(Note::Done)
+    }
 }
 
 /// Detections are written to a tenth of a millimetre.
@@ -35,10 +48,7 @@ impl Stage for Perceiver {
             StageError::new(format!("{what}; a frame needs depth, fx, fy, cx, cy, depth_unit_m and T_world_cam"))
         })?;
         let frame = frame.load(&self.folder).map_err(|error| StageError::new(error.to_string()))?;
-        let view = self.detector.detect(&frame, None);
-        let detections: Vec<Detection> = view.furniture.into_iter().map(rounded).collect();
-        record.set("detections", &detections);
-        Ok(Note::Done)
+        self.see(&frame, record)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
