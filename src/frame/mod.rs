@@ -3,6 +3,10 @@
 //! The type that cameras, recordings and perception share; nothing here knows
 //! where a frame comes from or what is in it.
 
+mod png;
+
+pub use png::grey_png;
+
 /// Focal lengths and principal point of a pinhole camera, pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intrinsics {
