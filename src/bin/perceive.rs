@@ -32,7 +32,7 @@ impl Program for Arguments {
     fn run(self) -> Result<Exit, Failure> {
         let beside = self.common.files.first().and_then(|file| file.parent().map(PathBuf::from));
         let folder = self.folder.or(beside).unwrap_or_default();
-        cli::run_filter(Self::NAME, &self.common, Intake::Records, &Perceiver { folder })
+        cli::run_filter(Self::NAME, &self.common, Intake::Records, &Perceiver { folder, ..Perceiver::default() })
     }
 }
 

@@ -4,12 +4,16 @@
 //! the one place here that may look at the scene.
 
 mod classify;
+mod detector;
 mod floor_grid;
-mod frame;
+mod frame_files;
+mod picture_files;
 mod rectangle;
 mod stage;
 pub mod truth;
 
+pub use detector::Detector;
+pub use frame_files::{FrameError, FrameFiles, check};
 pub use stage::Perceiver;
 
 use crate::geometry::Pose;

@@ -2,10 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::classify::classify;
-use super::floor_grid::project;
-use super::frame::{FrameError, FrameFiles};
-use crate::geometry::vec2;
+use super::{Detector, FrameFiles};
 use crate::record::{Detection, Note, Record, Stage, StageError};
 
 /// Finds furniture in the depth pictures that records name.
@@ -13,16 +10,8 @@ use crate::record::{Detection, Note, Record, Stage, StageError};
 pub struct Perceiver {
     /// Where relative paths begin.
     pub folder: PathBuf,
-}
-
-impl Perceiver {
-    fn detections(&self, frame: &FrameFiles) -> Result<Vec<Detection>, FrameError> {
-        frame.check()?;
-        let depth = frame.load_depth(&self.folder)?;
-        let camera = vec2(frame.world_from_camera[0][3], frame.world_from_camera[1][3]);
-        let Some(grid) = project(frame, &depth) else { return Ok(Vec::new()) };
-        Ok(grid.components().iter().filter_map(|cells| classify(&grid, cells, camera)).map(rounded).collect())
-    }
+    /// What finds it.
+    pub detector: Detector,
 }
 
 /// Detections are written to a tenth of a millimetre.
@@ -45,7 +34,9 @@ impl Stage for Perceiver {
             let what = crate::record::message_without_position(&error);
             StageError::new(format!("{what}; a frame needs depth, fx, fy, cx, cy, depth_unit_m and T_world_cam"))
         })?;
-        let detections = self.detections(&frame).map_err(|error| StageError::new(error.to_string()))?;
+        let frame = frame.load(&self.folder).map_err(|error| StageError::new(error.to_string()))?;
+        let view = self.detector.detect(&frame, None);
+        let detections: Vec<Detection> = view.furniture.into_iter().map(rounded).collect();
         record.set("detections", &detections);
         Ok(Note::Done)
     }
