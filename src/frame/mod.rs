@@ -5,7 +5,7 @@
 
 mod png;
 
-pub use png::grey_png;
+pub use png::{grey_png, rgb_png};
 
 /// Focal lengths and principal point of a pinhole camera, pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
