@@ -14,6 +14,7 @@ mod output;
 mod program;
 mod progress;
 mod scores;
+mod threads;
 
 pub use arguments::{ColorChoice, Common, Format};
 pub use diagnostic::{Diagnostic, Reporter};
@@ -25,3 +26,4 @@ pub use output::{SharedSink, Sink, open_output};
 pub use program::{Program, command_of, main};
 pub use progress::Progress;
 pub use scores::{Table, load_gold, read_lines, write_scores};
+pub use threads::on_threads;

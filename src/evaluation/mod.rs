@@ -1,5 +1,6 @@
 //! Experiments, metrics and tables: what the system reads, understands and finds, against gold.
 
+pub mod behavior;
 mod brackets;
 mod gold;
 mod interval;
@@ -7,6 +8,7 @@ mod labelled;
 mod model;
 mod score;
 mod table;
+mod token_gold;
 
 pub use brackets::{Bracket, brackets_of};
 pub use gold::{Gold, GoldError, read_gold};

@@ -9,6 +9,7 @@ mod check;
 mod error;
 mod furniture;
 mod map;
+mod noise;
 mod scene;
 pub mod solid;
 
@@ -16,5 +17,6 @@ pub use check::check;
 pub use error::WorldError;
 pub use furniture::{CATEGORIES, OBJECTS, Shape, Size, category, object};
 pub use map::{Door, Room, RoomMap};
+pub use noise::Noise;
 pub use scene::{Item, PlacedObject, Scene};
 pub use solid::{Color, Ray, Solid};

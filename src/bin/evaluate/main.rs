@@ -1,5 +1,6 @@
 //! Scores records against gold, and runs the experiments: one file a subcommand.
 
+mod behavior;
 mod run;
 mod score;
 
@@ -27,6 +28,8 @@ enum What {
     Score(score::Arguments),
     /// Run a corpus end to end, from text to trial, and score it
     Run(run::Arguments),
+    /// Drive a corpus many times over: the paper's Tables II and III, ablations, and why it went wrong
+    Behavior(behavior::Arguments),
 }
 
 impl Program for Arguments {
@@ -35,6 +38,7 @@ impl Program for Arguments {
         match &self.what {
             What::Score(arguments) => &arguments.common,
             What::Run(arguments) => &arguments.common,
+            What::Behavior(arguments) => &arguments.common,
         }
     }
     fn schema() -> schemars::Schema {
@@ -47,6 +51,7 @@ impl Program for Arguments {
         match self.what {
             What::Score(arguments) => arguments.run(),
             What::Run(arguments) => arguments.run(),
+            What::Behavior(arguments) => arguments.run(),
         }
     }
 }
