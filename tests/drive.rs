@@ -24,7 +24,8 @@ fn the_robot_finds_the_mug_and_leaves_plot_picture_and_log() {
     assert_eq!(trial["picture"], "1.png");
     assert!(std::fs::read_to_string(&plot).expect("a plot").contains("<svg"));
     assert!(std::fs::read(folder.path().join("pictures/1.png")).expect("a picture").starts_with(b"\x89PNG"));
-    let records = spatial_fetch::recording::records(&folder.path().join("trial-1.mcap")).expect("a log");
+    let records =
+        spatial_fetch::recording::records(&folder.path().join("trial-1.mcap"), "/fetch/drive").expect("a log");
     assert_eq!(records, [ran.out.trim_end()]);
 }
 
@@ -42,7 +43,10 @@ fn an_object_that_is_not_there_is_not_found_and_the_record_says_why() {
     let ran = run("drive", &[], planned("find the umbrella on a table in the bedroom")).expect_code(0);
     let trial = &ran.records()[0]["trial"];
     assert_eq!(trial["outcome"], "not_found");
-    assert!(trial["why"].as_str().is_some_and(|why| why.contains("no umbrella") && why.contains("looked at;")), "{trial}");
+    assert!(
+        trial["why"].as_str().is_some_and(|why| why.contains("no umbrella") && why.contains("looked at;")),
+        "{trial}"
+    );
 }
 
 #[test]

@@ -52,7 +52,9 @@ fn the_experiments_with_the_robot_stand_beside_the_papers_figures() {
     let folder = tempfile::tempdir().expect("a folder");
     let arguments = ["behavior", "--gold", &few(folder.path()), "--seeds", "2", "--explain", "--format", "text"];
     let text = run("evaluate", &arguments, "").expect_code(0).out;
-    for part in ["Table II", "Table III", "90.1 %", "78.1 %", "least clearance", "blind", "3 instructions (gold), 2 trials"] {
+    for part in
+        ["Table II", "Table III", "90.1 %", "78.1 %", "least clearance", "blind", "3 instructions (gold), 2 trials"]
+    {
         assert!(text.contains(part), "no {part} in\n{text}");
     }
 }
@@ -68,7 +70,8 @@ fn ablations_are_the_same_bytes_for_any_number_of_jobs() {
     let one = with("1");
     assert_eq!(one, with("3"));
     let report: serde_json::Value = serde_json::from_str(&one).expect("JSON");
-    let names: Vec<&str> = report["conditions"].as_array().expect("a list").iter().filter_map(|c| c["name"].as_str()).collect();
+    let names: Vec<&str> =
+        report["conditions"].as_array().expect("a list").iter().filter_map(|c| c["name"].as_str()).collect();
     assert!(names.contains(&"no localization") && names.contains(&"first pair only"), "{names:?}");
     assert_eq!(report["conditions"][0]["all"]["collisions"], 0);
 }

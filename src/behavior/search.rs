@@ -95,7 +95,9 @@ pub fn rank(beliefs: &Beliefs, wanted: &Wanted, place: Place, lexicon: &Lexicon)
 
 /// Furniture of the class the target's noun names: people call a nightstand a table, and a desk too.
 fn candidates(beliefs: &Beliefs, target: Option<&str>, lexicon: &Lexicon) -> Vec<usize> {
-    (0..beliefs.furniture.len()).filter(|&i| belief_in_target(&beliefs.furniture[i], target, lexicon) >= DOUBTFUL).collect()
+    (0..beliefs.furniture.len())
+        .filter(|&i| belief_in_target(&beliefs.furniture[i], target, lexicon) >= DOUBTFUL)
+        .collect()
 }
 
 /// How sure the robot is that a piece is what the target's noun names.
@@ -210,7 +212,9 @@ fn furniture_factor(
 
 /// The best frame's fit, and by how much it beat the next.
 fn in_frames(phrase: &str, fits: &[(Frame, f64)]) -> Factor {
-    let Some(&(frame, value)) = fits.first() else { return Factor { value: 0.0, reading: format!("{phrase} in no frame") } };
+    let Some(&(frame, value)) = fits.first() else {
+        return Factor { value: 0.0, reading: format!("{phrase} in no frame") };
+    };
     let next = fits.get(1).map(|(frame, value)| format!(", {} {value:.2}", frame.name())).unwrap_or_default();
     Factor { value, reading: format!("{phrase} {value:.2} ({} frame{next})", frame.name()) }
 }
@@ -260,7 +264,8 @@ pub fn blame(beliefs: &Beliefs, wanted: &Wanted, place: Place, lexicon: &Lexicon
             return Some(format!("at pair {}, {phrase}: no {} was seen", i + 1, reference.replace('_', " ")));
         }
         let best = best(pair);
-        (best < UNFULFILLED).then(|| format!("at pair {}, {phrase}: nothing seen stands there, the best fits {best:.2}", i + 1))
+        (best < UNFULFILLED)
+            .then(|| format!("at pair {}, {phrase}: nothing seen stands there, the best fits {best:.2}", i + 1))
     })
 }
 
@@ -353,7 +358,8 @@ mod tests {
     #[test]
     fn a_relation_is_read_as_on_entering_first_and_by_the_items_own_front_next() {
         // The couch looks north, away from the door: what is before it is behind it as on entering.
-        let beliefs = seen(&[("table", 1.0, 3.5, None), ("couch", 1.0, 5.0, Some(FRAC_PI_2)), ("table", 1.0, 6.5, None)]);
+        let beliefs =
+            seen(&[("table", 1.0, 3.5, None), ("couch", 1.0, 5.0, Some(FRAC_PI_2)), ("table", 1.0, 6.5, None)]);
         let behind = pair("couch", Direction::Back, Frame::Viewer);
         assert_eq!(order(&beliefs, vec![behind.clone()]), [2, 0]);
         let only_front = seen(&[("table", 1.0, 3.5, None), ("couch", 1.0, 5.0, Some(FRAC_PI_2))]);
