@@ -202,7 +202,7 @@ fn ros_2_ros_1_and_foxglove_give_the_detections_of_the_picture_files() {
         let from_file = run("perceive", &["--from", path.to_str().expect("UTF-8")], "").expect_code(0);
         assert_eq!(detections(&from_file), wanted, "{name}");
         let from_pipe = run("perceive", &[], &log).expect_code(0);
-        assert_eq!(from_pipe.out, from_file.out, "{name} through a pipe");
+        assert_eq!(detections(&from_pipe), wanted, "{name} through a pipe");
     }
 }
 

@@ -78,7 +78,8 @@ impl TrialLog {
         if self.path.last().is_none_or(|last| last.distance_to(pose.position()) >= PATH_SPACING_M) {
             self.path.push(pose);
         }
-        if time_s - self.flushed_s >= FLUSH_S {
+        // Times are sums of steps, so a whole second may fall short by a rounding.
+        if time_s - self.flushed_s >= FLUSH_S - 1e-6 {
             self.flush(time_s);
         }
     }
@@ -155,11 +156,12 @@ impl TrialLog {
         self.put(|log| log.message("/camera/color/image_raw/compressed", time_ns, &image));
     }
 
-    /// A record as a stage wrote it, byte for byte: `/fetch/STAGE`.
+    /// A record as a stage wrote it, byte for byte: `/fetch/STAGE`; handed to the disk at once.
     pub fn record(&mut self, time_s: f64, stage: &str, line: &str) {
         let topic = format!("/fetch/{stage}");
         let schema = RECORD_SCHEMA.as_str();
         self.put(|log| log.json(&topic, "spatial_fetch.Record", schema, nanoseconds(time_s), line));
+        self.put(LogWriter::flush);
     }
 
     /// Ends the log; tells of any write that failed on the way.
