@@ -1,5 +1,6 @@
 //! Experiments, metrics and tables: what the system reads, understands and finds, against gold.
 
+pub mod behavior;
 mod brackets;
 mod furniture;
 mod furniture_gold;
@@ -10,6 +11,7 @@ mod labelled;
 mod model;
 mod score;
 mod table;
+mod token_gold;
 mod training_frame;
 
 pub use brackets::{Bracket, brackets_of};

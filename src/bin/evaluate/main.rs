@@ -1,5 +1,6 @@
 //! Scores records against gold, and runs the experiments: one file a subcommand.
 
+mod behavior;
 mod frames;
 mod perception;
 mod run;
@@ -36,6 +37,8 @@ enum What {
     Perception(perception::Arguments),
     /// Learn the furniture detector from such rooms
     Train(train::Arguments),
+    /// Drive a corpus many times over: the paper's Tables II and III, ablations, and why it went wrong
+    Behavior(behavior::Arguments),
 }
 
 impl Program for Arguments {
@@ -47,6 +50,7 @@ impl Program for Arguments {
             What::Frames(arguments) => &arguments.common,
             What::Perception(arguments) => &arguments.common,
             What::Train(arguments) => &arguments.common,
+            What::Behavior(arguments) => &arguments.common,
         }
     }
     fn schema() -> schemars::Schema {
@@ -66,6 +70,7 @@ impl Program for Arguments {
             What::Frames(arguments) => arguments.run(),
             What::Perception(arguments) => arguments.run(),
             What::Train(arguments) => arguments.run(),
+            What::Behavior(arguments) => arguments.run(),
         }
     }
 }
