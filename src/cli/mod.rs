@@ -7,6 +7,7 @@
 mod arguments;
 mod diagnostic;
 mod exit;
+mod eyes;
 mod filter;
 mod input;
 mod interrupt;
@@ -18,6 +19,7 @@ mod scores;
 pub use arguments::{ColorChoice, Common, Format};
 pub use diagnostic::{Diagnostic, Reporter};
 pub use exit::{Exit, Failure};
+pub use eyes::EyeArguments;
 pub use filter::{Intake, run_filter};
 pub use input::{Inputs, Line, read_file};
 pub use interrupt::on_interrupt;

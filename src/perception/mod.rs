@@ -1,14 +1,18 @@
 //! What a robot's eyes report: furniture with pose, and the object.
 //!
-//! The executive sees only [`Eyes`]. [`truth`] is the ideal pair of eyes; it is
-//! the one place here that may look at the scene.
+//! The executive sees only [`Eyes`]. [`truth`], [`boxes`] and [`simulated`] are
+//! the eyes of the simulated robot, from ideal to nothing true; they are the
+//! only places here that may look at the scene.
 
+pub mod boxes;
 mod classify;
 mod detector;
 mod floor_grid;
 mod frame_files;
+pub mod objects;
 mod picture_files;
 mod rectangle;
+pub mod simulated;
 mod stage;
 pub mod truth;
 

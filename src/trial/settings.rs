@@ -1,6 +1,7 @@
 //! How a trial is run: what the executive may do, what eyes it has, and its random stream.
 
 use crate::behavior::Options;
+use crate::world::camera::Kinect;
 
 /// Everything about a trial that is neither home nor plan.
 #[derive(Clone, Copy, Debug, Default)]
@@ -9,6 +10,8 @@ pub struct Settings {
     pub options: Options,
     /// What the robot's eyes report.
     pub perception: Perception,
+    /// The simulated camera: its faults and the light.
+    pub kinect: Kinect,
     /// Seed of everything random.
     pub seed: u64,
 }
@@ -19,6 +22,12 @@ pub enum Perception {
     /// Ideal detections of what a camera would show
     #[default]
     Truth,
+    /// True boxes with a sensor's noise, misses and confusions
+    Boxes,
+    /// Rendered Kinect frames truly divided among the items, our classifier
+    Masks,
+    /// Rendered Kinect frames, nothing true
+    Camera,
 }
 
 /// The random stream of a record: by its id, so that it is the same in any order, job or shard (FNV-1a).

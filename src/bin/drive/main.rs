@@ -7,9 +7,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
+use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, Intake, Program};
 use spatial_fetch::record::Trial;
-use spatial_fetch::trial::{Driver, Home, Perception, Settings};
+use spatial_fetch::trial::{Driver, Home, Settings};
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
 ///
@@ -27,9 +27,8 @@ struct Arguments {
     /// Furniture and objects of the simulated home [default: the apartment as first furnished]
     #[arg(long, value_name = "FILE")]
     scene: Option<PathBuf>,
-    /// What the robot's eyes report
-    #[arg(long, value_enum, default_value = "truth")]
-    perception: Perception,
+    #[command(flatten)]
+    eyes: EyeArguments,
     #[command(flatten)]
     executive: executive::Arguments,
     #[command(flatten)]
@@ -49,8 +48,12 @@ impl Program for Arguments {
     fn run(self) -> Result<Exit, Failure> {
         let home =
             Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
-        let settings =
-            Settings { options: self.executive.options(), perception: self.perception, seed: self.common.seed };
+        let settings = Settings {
+            options: self.executive.options(),
+            perception: self.eyes.perception,
+            kinect: self.eyes.kinect(),
+            seed: self.common.seed,
+        };
         let outputs = self.outputs.outputs(self.common.force);
         cli::run_filter(Self::NAME, &self.common, Intake::Records, &Driver { home, settings, outputs })
     }
