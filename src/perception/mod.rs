@@ -1,25 +1,55 @@
 //! What a robot's eyes report: furniture with pose, and the object.
 //!
+//! [`Detector`] makes detections of a frame: points ([`points`]) are levelled
+//! ([`floor`]) and projected onto a grid ([`floor_grid`]), walls are taken away
+//! ([`walls`]), cells of equal height make patches ([`patches`]), a forest joins
+//! patches into pieces ([`joining`]), another names them by what is measured of
+//! them ([`measures`]), a third tells their fronts ([`front`]); footprints are
+//! completed by what such pieces measure ([`footprint`]). All three are learned
+//! from rooms of our own ([`training`]). [`FurnitureMap`] fuses views.
+//!
 //! The executive sees only [`Eyes`]. [`truth`], [`boxes`] and [`simulated`] are
 //! the eyes of the simulated robot, from ideal to nothing true; they are the
 //! only places here that may look at the scene.
 
 pub mod boxes;
-mod classify;
+mod describe;
 mod detector;
+mod external;
+mod floor;
 mod floor_grid;
+mod footprint;
+mod forest;
 mod frame_files;
+mod front;
+mod fusion;
+mod joining;
+mod measures;
+mod model;
 pub mod objects;
+mod overlay;
+mod patches;
 mod picture_files;
+mod points;
 mod rectangle;
+mod scenes;
+mod segment;
 pub mod simulated;
 mod stage;
+pub mod training;
 pub mod truth;
+mod walls;
 
 pub use detector::Detector;
+pub use external::{ExternalDetector, ExternalError};
 pub use frame_files::{FrameError, FrameFiles, check};
-pub use stage::Perceiver;
+pub use fusion::FurnitureMap;
+pub use model::Model;
+pub use overlay::overlay;
+pub use scenes::{GridMap, SceneRecord, SceneView, Scenes, scene_of};
+pub use stage::{Perceiver, text_line};
 
+use crate::frame::RgbdFrame;
 use crate::geometry::Pose;
 use crate::record::Detection;
 
@@ -27,6 +57,11 @@ use crate::record::Detection;
 pub trait Eyes {
     /// What is seen now; `believed` is where the robot believes it stands, and the frame of the answer.
     fn look(&mut self, believed: Pose) -> View;
+
+    /// The camera's frame behind the last look; none for eyes without a camera.
+    fn frame(&self) -> Option<&RgbdFrame> {
+        None
+    }
 }
 
 /// One look.

@@ -10,6 +10,8 @@ use crate::geometry::{Polygon, Vec2, vec2};
 use crate::record::Detection;
 use crate::world::{OBJECTS, SmallObject};
 
+/// On which furniture things are looked for.
+const HOLDERS: [&str; 7] = ["table", "dinner_table", "coffee_table", "desk", "nightstand", "dresser", "cabinet"];
 /// Plates lie between these heights, metres.
 const PLATE_M: (f64, f64) = (0.25, 1.15);
 /// Bins of the plate's height, metres.
@@ -80,7 +82,7 @@ pub fn sightings(frame: &RgbdFrame, furniture: &[Detection]) -> Vec<ObjectSighti
         return Vec::new();
     }
     let mut found: Vec<ObjectSighting> = Vec::new();
-    for detection in furniture {
+    for detection in furniture.iter().filter(|detection| may_hold_things(detection)) {
         for sighting in on_top(frame, detection) {
             let near = |other: &ObjectSighting| (vec2(other.x, other.y) - vec2(sighting.x, sighting.y)).norm() < 0.1;
             if !found.iter().any(near) {
@@ -89,6 +91,12 @@ pub fn sightings(frame: &RgbdFrame, furniture: &[Detection]) -> Vec<ObjectSighti
         }
     }
     found
+}
+
+/// Whether it may be a table or a chest: on beds and seats cushions would pass for things.
+fn may_hold_things(detection: &Detection) -> bool {
+    let share = |name: &str| detection.scores.get(name).copied().unwrap_or(0.0);
+    HOLDERS.contains(&detection.category.as_str()) || HOLDERS.iter().map(|name| share(name)).sum::<f64>() > 0.2
 }
 
 fn on_top(frame: &RgbdFrame, detection: &Detection) -> Vec<ObjectSighting> {

@@ -22,7 +22,9 @@ pub struct Run {
 
 /// Runs `plan` in `home`. `stream` picks the record's own random numbers under the seed ([`super::stream_of`]).
 pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: &mut dyn Watcher) -> Run {
-    let mut base = SimulatedBase::new(Obstacles::new(&home.map, &home.scene), home.map.start);
+    let noise = settings.noise.of(home.scene.noise.unwrap_or_default());
+    let obstacles = Obstacles::new(&home.map, &home.scene);
+    let mut base = SimulatedBase::with_noise(obstacles, home.map.start, noise, settings.seed, stream);
     let truth = base.truth();
     let mut eyes = eyes(home, settings, stream, base.truth());
     let mut report = Executive::new(&home.map, &mut base, eyes.as_mut(), watcher, settings.options).run(plan);
@@ -31,11 +33,11 @@ pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: 
     confirm(&mut report, home, object_of(plan), truth.pose);
     let verdict = judge(home, object_of(plan), &report.approached, report.found_at, report.outcome, truth.distance_m);
     let mut path = report.journal.path;
-    path.push(PathPoint::new(duration_s, base.pose()));
+    path.push(PathPoint::new(duration_s, report.pose));
     let trial = Trial {
         outcome: report.outcome,
         why: report.why,
-        final_pose: rounded(base.pose()),
+        final_pose: rounded(report.pose),
         target_id: verdict.target_id,
         approached: verdict.approached,
         right_first: verdict.right_first,

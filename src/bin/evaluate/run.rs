@@ -35,7 +35,7 @@ impl Arguments {
             Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
         let options = Options { blind: self.blind, ..Options::default() };
         let (perception, kinect) = (self.eyes.perception, self.eyes.kinect());
-        let settings = Settings { options, perception, kinect, seed: self.common.seed };
+        let settings = Settings { options, perception, kinect, seed: self.common.seed, ..Settings::default() };
         let lines = run_corpus(&gold, &home, &settings);
         let scores = score(&gold, &lines).map_err(Failure::Failed)?;
         let title = format!("{} descriptions, {} records", gold.len(), lines.len());
