@@ -7,6 +7,7 @@
 mod arguments;
 mod diagnostic;
 mod exit;
+mod eyes;
 mod filter;
 mod frame_input;
 mod input;
@@ -22,6 +23,7 @@ mod threads;
 pub use arguments::{ColorChoice, Common, Format};
 pub use diagnostic::{Diagnostic, Reporter};
 pub use exit::{Exit, Failure};
+pub use eyes::EyeArguments;
 pub use filter::{Intake, run_filter, run_filter_on};
 pub use frame_input::{FrameInput, FrameItem, FrameLogs, See, run_frames};
 pub use input::{Inputs, Line, read_file};
