@@ -138,12 +138,12 @@ fn work(line: &Line, mut record: Record, format: Format, stage: &dyn Stage, outc
 }
 
 /// Threads, started when there is more than one line to work on.
-struct Workers {
+pub(super) struct Workers {
     pool: Option<rayon::ThreadPool>,
 }
 
 impl Workers {
-    fn new(jobs: usize) -> Result<Self, Failure> {
+    pub(super) fn new(jobs: usize) -> Result<Self, Failure> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let jobs = if jobs == 0 { cores } else { jobs };
         if jobs == 1 {
@@ -152,6 +152,14 @@ impl Workers {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
         pool.map(|pool| Self { pool: Some(pool) })
             .map_err(|e| Failure::Failed(format!("cannot start {jobs} threads: {e}")))
+    }
+
+    /// Runs `work` so that what it does in parallel stays within these threads.
+    pub(super) fn within<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
     }
 
     fn map<T: Send>(&self, lines: &[Line], work: impl Fn(&Line) -> T + Sync) -> Vec<T> {

@@ -24,4 +24,6 @@ pub use interrupt::on_interrupt;
 pub use output::{SharedSink, Sink, open_output};
 pub use program::{Program, command_of, main};
 pub use progress::Progress;
-pub use scores::{Table, load_gold, read_lines, write_scores};
+pub use scores::{
+    Table, find_description, in_parallel, load_gold, load_gold_with, read_lines, write_report, write_scores, write_text,
+};

@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use serde::Deserialize;
 
 use super::brackets::{Bracket, brackets_of};
+use super::gold_tree::{meaning_of, tree_of};
 use super::labelled::parse_tree;
-use crate::record::{Direction, Node, ObjectSlot, RoomSlot, Tag};
+use crate::record::{Chunk, Direction, Grounding, Node, ObjectSlot, RoomSlot, Tag};
 
 /// What a description is labelled as.
 #[derive(Clone, Debug, Default)]
@@ -15,8 +16,12 @@ pub struct Gold {
     pub id: String,
     /// The description.
     pub text: String,
+    /// Its chunk tree; empty when it has none.
+    pub chunks: Vec<Chunk>,
     /// Labelled brackets over its words; empty when it has no tree.
     pub brackets: BTreeSet<Bracket>,
+    /// What it means: room, nodes and object; nothing when it is not labelled with that.
+    pub grounding: Option<Grounding>,
     /// Whether it says what the description means.
     pub has_grounding: bool,
     /// The side that picks the room.
@@ -81,19 +86,19 @@ struct TokenEntry {
 }
 
 #[derive(Deserialize)]
-struct TokenChunk {
-    tag: String,
-    start: usize,
-    end: usize,
+pub(super) struct TokenChunk {
+    pub(super) tag: String,
+    pub(super) start: usize,
+    pub(super) end: usize,
 }
 
 #[derive(Deserialize)]
-struct TokenGrounding {
-    room: Option<String>,
-    object: Option<String>,
-    reference: Option<String>,
-    direction: Option<String>,
-    target: Option<String>,
+pub(super) struct TokenGrounding {
+    pub(super) room: Option<String>,
+    pub(super) object: Option<String>,
+    pub(super) reference: Option<String>,
+    pub(super) direction: Option<String>,
+    pub(super) target: Option<String>,
 }
 
 /// Reads gold descriptions, one JSON object a line; `file` is named in errors.
@@ -123,9 +128,17 @@ fn from_own(entry: OwnEntry) -> Result<Gold, String> {
     let mut pairs: Vec<_> =
         nodes.iter().flat_map(|node| &node.pairs).map(|pair| (pair.reference.clone(), pair.direction)).collect();
     pairs.sort();
+    let grounding = Grounding {
+        room: entry.grounding.room.clone(),
+        object: entry.grounding.object.clone(),
+        nodes: nodes.clone(),
+        ..Grounding::default()
+    };
     let room = entry.grounding.room.unwrap_or_default();
     Ok(Gold {
         brackets: brackets_of(&entry.text, &chunks),
+        chunks,
+        grounding: Some(grounding),
         id: entry.id,
         text: entry.text,
         has_grounding: true,
@@ -142,16 +155,15 @@ fn from_tokens(entry: TokenEntry) -> Gold {
     let last =
         |pick: fn(&TokenGrounding) -> Option<&String>| entry.groundings.iter().filter_map(pick).next_back().cloned();
     let room = last(|g| g.room.as_ref());
-    // These corpora name the room by its side in the apartment.
-    let side = match room.as_deref() {
-        Some("living room") => Some(Direction::Right),
-        Some("bedroom" | "bed room") => Some(Direction::Left),
-        _ => None,
-    };
+    let side = side_of_room(room.as_deref());
+    let chunks = tree_of(&entry.text, &entry.chunks);
+    let grounding = meaning_of(&entry.text, &chunks, &entry.groundings);
     let mut pairs: Vec<_> = entry.groundings.iter().filter_map(pair_of).collect();
     pairs.sort();
     Gold {
         brackets: entry.chunks.iter().filter_map(|c| Some((tag_of(&c.tag)?, c.start, c.end))).collect(),
+        chunks,
+        grounding,
         has_grounding: !entry.groundings.is_empty(),
         side,
         room: None,
@@ -164,7 +176,16 @@ fn from_tokens(entry: TokenEntry) -> Gold {
     }
 }
 
-fn pair_of(grounding: &TokenGrounding) -> Option<(String, Direction)> {
+/// These corpora name the room by its side in the apartment.
+pub(super) fn side_of_room(room: Option<&str>) -> Option<Direction> {
+    match room {
+        Some("living room") => Some(Direction::Right),
+        Some("bedroom" | "bed room") => Some(Direction::Left),
+        _ => None,
+    }
+}
+
+pub(super) fn pair_of(grounding: &TokenGrounding) -> Option<(String, Direction)> {
     let reference = grounding.reference.as_ref()?.replace(' ', "_");
     // A reference without a direction is an empty cell of a move ahead.
     let direction = match grounding.direction.as_deref() {
@@ -180,7 +201,7 @@ fn pair_of(grounding: &TokenGrounding) -> Option<(String, Direction)> {
 }
 
 /// Slips of the pen in public treebanks are read as what was meant.
-fn tag_of(name: &str) -> Option<Tag> {
+pub(super) fn tag_of(name: &str) -> Option<Tag> {
     let name = match name {
         "OBPT" => "OBTP",
         "FURTR" => "FURTP",

@@ -1,17 +1,33 @@
 //! Experiments, metrics and tables: what the system reads, understands and finds, against gold.
 
+mod blame;
 mod brackets;
+mod compare;
 mod gold;
+mod gold_tree;
 mod interval;
 mod labelled;
+mod meanings;
 mod model;
+mod paper;
+mod pipeline;
+mod report;
 mod score;
 mod table;
 
+mod what_if;
+
+pub use blame::{Blame, Blames, Stage, Wanted, blame, blame_text, meaning_phrase};
 pub use brackets::{Bracket, brackets_of};
+pub use compare::{Change, CompareError, Comparison, Measure, compare, comparison_text, mcnemar_exact};
 pub use gold::{Gold, GoldError, read_gold};
 pub use interval::Rate;
 pub use labelled::{LabelledChunk, LabelledTree, TreeError, parse_tree};
+pub use meanings::add_meanings;
 pub use model::training_record;
+pub use paper::{Case, Cell, Column, Paper, PaperTable, Row, Source, paper, paper_csv, paper_text};
+pub use pipeline::{Pipeline, Understood};
+pub use report::write_report;
 pub use score::{Group, Scores, run_corpus, score};
 pub use table::text_tables;
+pub use what_if::{Shift, WhatIf, Wording, what_if, what_if_text};

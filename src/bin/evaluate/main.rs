@@ -1,7 +1,11 @@
 //! Scores records against gold, and runs the experiments: one file a subcommand.
 
+mod blame;
+mod compare;
+mod paper;
 mod run;
 mod score;
+mod what_if;
 
 use std::process::ExitCode;
 
@@ -27,6 +31,14 @@ enum What {
     Score(score::Arguments),
     /// Run a corpus end to end, from text to trial, and score it
     Run(run::Arguments),
+    /// Run the paper's three experiments: its figures beside ours
+    Paper(paper::Arguments),
+    /// Charge each failed trial to the stage whose gold mends it
+    Blame(blame::Arguments),
+    /// Compare two result files: fixed, broken, changed
+    Compare(compare::Arguments),
+    /// Find the smallest changes of words and furniture that change the outcome
+    WhatIf(what_if::Arguments),
 }
 
 impl Program for Arguments {
@@ -35,18 +47,30 @@ impl Program for Arguments {
         match &self.what {
             What::Score(arguments) => &arguments.common,
             What::Run(arguments) => &arguments.common,
+            What::Paper(arguments) => &arguments.common,
+            What::Blame(arguments) => &arguments.common,
+            What::Compare(arguments) => &arguments.common,
+            What::WhatIf(arguments) => &arguments.common,
         }
     }
     fn schema() -> schemars::Schema {
         schemars::schema_for!(Scores)
     }
     fn reads_standard_input(&self) -> bool {
-        matches!(&self.what, What::Score(arguments) if arguments.common.files.is_empty())
+        match &self.what {
+            What::Score(arguments) => arguments.common.files.is_empty(),
+            What::WhatIf(arguments) => arguments.reads_standard_input(),
+            _ => false,
+        }
     }
     fn run(self) -> Result<Exit, Failure> {
         match self.what {
             What::Score(arguments) => arguments.run(),
             What::Run(arguments) => arguments.run(),
+            What::Paper(arguments) => arguments.run(),
+            What::Blame(arguments) => arguments.run(),
+            What::Compare(arguments) => arguments.run(),
+            What::WhatIf(arguments) => arguments.run(),
         }
     }
 }
