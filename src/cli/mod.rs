@@ -8,22 +8,28 @@ mod arguments;
 mod diagnostic;
 mod exit;
 mod filter;
+mod frame_input;
 mod input;
 mod interrupt;
+mod log_input;
 mod output;
 mod program;
 mod progress;
 mod scores;
+mod source;
 
 pub use arguments::{ColorChoice, Common, Format};
 pub use diagnostic::{Diagnostic, Reporter};
 pub use exit::{Exit, Failure};
-pub use filter::{Intake, run_filter};
+pub use filter::{Intake, run_filter, run_filter_on};
+pub use frame_input::{FrameInput, FrameItem, FrameLogs, See, run_frames};
 pub use input::{Inputs, Line, read_file};
 pub use interrupt::on_interrupt;
+pub use log_input::FromLog;
 pub use output::{SharedSink, Sink, open_output};
 pub use program::{Program, command_of, main};
 pub use progress::Progress;
 pub use scores::{
     Table, find_description, in_parallel, load_gold, load_gold_with, read_lines, write_report, write_scores, write_text,
 };
+pub use source::Source;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::filter::Workers;
-use super::{Common, Exit, Failure, Format, Inputs, on_interrupt, open_output, read_file};
+use super::{Common, Exit, Failure, Format, Inputs, Source, on_interrupt, open_output, read_file};
 use crate::evaluation::{Gold, Scores, add_meanings, read_gold, text_tables};
 use crate::record::Record;
 

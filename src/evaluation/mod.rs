@@ -8,12 +8,14 @@ mod gold_tree;
 mod interval;
 mod labelled;
 mod meanings;
+mod merge;
 mod model;
 mod paper;
 mod pipeline;
 mod report;
 mod score;
 mod table;
+mod training_frame;
 
 mod what_if;
 
@@ -24,10 +26,12 @@ pub use gold::{Gold, GoldError, read_gold};
 pub use interval::Rate;
 pub use labelled::{LabelledChunk, LabelledTree, TreeError, parse_tree};
 pub use meanings::add_meanings;
+pub use merge::{merge_scores, only_with_records};
 pub use model::training_record;
 pub use paper::{Case, Cell, Column, Paper, PaperTable, Row, Source, paper, paper_csv, paper_text};
 pub use pipeline::{Pipeline, Understood};
 pub use report::write_report;
 pub use score::{Group, Scores, run_corpus, score};
 pub use table::text_tables;
+pub use training_frame::write_training_frame;
 pub use what_if::{Shift, WhatIf, Wording, what_if, what_if_text};

@@ -1,10 +1,11 @@
 //! Scores records against gold, stage by stage.
 
+use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use rayon::prelude::*;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::brackets::brackets_of;
 use super::{Gold, Pipeline, Rate};
@@ -12,7 +13,7 @@ use crate::record::{Chunk, Direction, Grounding, Outcome, Record, Rounded, Tag, 
 use crate::trial::{Home, Settings};
 
 /// The scores of one group of descriptions. A stage that no record has reached is not counted.
-#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Group {
     /// Descriptions.
     pub descriptions: usize,
@@ -45,7 +46,7 @@ pub struct Group {
 }
 
 /// All scores of a corpus.
-#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Scores {
     /// All descriptions.
     pub all: Group,
@@ -82,10 +83,13 @@ pub fn score(gold: &[Gold], lines: &[String]) -> Result<Scores, String> {
         let answer = read(&record).map_err(|error| format!("record {}: {error}", i + 1))?;
         if !known.contains(id.as_str()) {
             scores.unknown.push(id);
-        } else if answers.contains_key(&id) {
-            scores.doubled.push(id);
-        } else {
-            answers.insert(id, answer);
+            continue;
+        }
+        match answers.entry(id) {
+            Entry::Occupied(first) => scores.doubled.push(first.key().clone()),
+            Entry::Vacant(place) => {
+                place.insert(answer);
+            }
         }
     }
     // A stage is scored when any record has come that far; records without it then count as wrong.

@@ -25,7 +25,8 @@ impl Arguments {
         let [first, second] = self.common.files.as_slice() else {
             return Err(Failure::Usage("compare takes two result files: evaluate compare A B".to_string()));
         };
-        let (a, b) = (cli::read_lines(&[first.clone()])?, cli::read_lines(&[second.clone()])?);
+        let read = |path| cli::read_lines(std::slice::from_ref(path));
+        let (a, b) = (read(first)?, read(second)?);
         let (a_name, b_name) = (first.display().to_string(), second.display().to_string());
         let comparison = compare((&a_name, &a), (&b_name, &b), self.measure, self.every_field)
             .map_err(|error| Failure::Failed(error.to_string()))?;

@@ -2,6 +2,8 @@
 
 mod blame;
 mod compare;
+mod frames;
+mod merge;
 mod paper;
 mod run;
 mod score;
@@ -38,7 +40,12 @@ enum What {
     /// Compare two result files: fixed, broken, changed
     Compare(compare::Arguments),
     /// Find the smallest changes of words and furniture that change the outcome
-    WhatIf(what_if::Arguments),
+    #[command(name = "what-if")]
+    Counterfactual(what_if::Arguments),
+    /// Add up the scores of the parts of a run
+    Merge(merge::Arguments),
+    /// Render frames of rooms furnished at random, with the truth, to train and test perception on
+    Frames(frames::Arguments),
 }
 
 impl Program for Arguments {
@@ -50,7 +57,9 @@ impl Program for Arguments {
             What::Paper(arguments) => &arguments.common,
             What::Blame(arguments) => &arguments.common,
             What::Compare(arguments) => &arguments.common,
-            What::WhatIf(arguments) => &arguments.common,
+            What::Counterfactual(arguments) => &arguments.common,
+            What::Merge(arguments) => &arguments.common,
+            What::Frames(arguments) => &arguments.common,
         }
     }
     fn schema() -> schemars::Schema {
@@ -59,7 +68,8 @@ impl Program for Arguments {
     fn reads_standard_input(&self) -> bool {
         match &self.what {
             What::Score(arguments) => arguments.common.files.is_empty(),
-            What::WhatIf(arguments) => arguments.reads_standard_input(),
+            What::Merge(arguments) => arguments.common.files.is_empty(),
+            What::Counterfactual(arguments) => arguments.reads_standard_input(),
             _ => false,
         }
     }
@@ -70,7 +80,9 @@ impl Program for Arguments {
             What::Paper(arguments) => arguments.run(),
             What::Blame(arguments) => arguments.run(),
             What::Compare(arguments) => arguments.run(),
-            What::WhatIf(arguments) => arguments.run(),
+            What::Counterfactual(arguments) => arguments.run(),
+            What::Merge(arguments) => arguments.run(),
+            What::Frames(arguments) => arguments.run(),
         }
     }
 }
