@@ -173,12 +173,12 @@ pub(super) fn finish(
 }
 
 /// Threads, started when there is more than one line to work on.
-pub(super) struct Workers {
+struct Workers {
     pool: Option<rayon::ThreadPool>,
 }
 
 impl Workers {
-    pub(super) fn new(jobs: usize) -> Result<Self, Failure> {
+    fn new(jobs: usize) -> Result<Self, Failure> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let jobs = if jobs == 0 { cores } else { jobs };
         if jobs == 1 {
@@ -187,14 +187,6 @@ impl Workers {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
         pool.map(|pool| Self { pool: Some(pool) })
             .map_err(|e| Failure::Failed(format!("cannot start {jobs} threads: {e}")))
-    }
-
-    /// Runs `work` so that what it does in parallel stays within these threads.
-    pub(super) fn within<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
-        match &self.pool {
-            Some(pool) => pool.install(work),
-            None => work(),
-        }
     }
 
     fn map<T: Sync, O: Send>(&self, items: &[T], work: impl Fn(&T) -> O + Sync) -> Vec<O> {

@@ -17,6 +17,7 @@ mod program;
 mod progress;
 mod scores;
 mod source;
+mod threads;
 
 pub use arguments::{ColorChoice, Common, Format};
 pub use diagnostic::{Diagnostic, Reporter};
@@ -30,6 +31,7 @@ pub use output::{SharedSink, Sink, open_output};
 pub use program::{Program, command_of, main};
 pub use progress::Progress;
 pub use scores::{
-    Table, find_description, in_parallel, load_gold, load_gold_with, read_lines, write_report, write_scores, write_text,
+    Table, find_description, load_gold, load_gold_with, read_lines, write_report, write_scores, write_text,
 };
 pub use source::Source;
+pub use threads::on_threads;

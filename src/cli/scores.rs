@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::filter::Workers;
-use super::{Common, Exit, Failure, Format, Inputs, Source, on_interrupt, open_output, read_file};
+use super::{Common, Exit, Failure, Format, Inputs, Source, open_output, read_file};
 use crate::evaluation::{Gold, Scores, add_meanings, read_gold, text_tables};
 use crate::record::Record;
 
@@ -55,13 +54,6 @@ pub fn find_description(files: &[PathBuf], id: Option<&str>) -> Result<(String, 
         Some(id) => format!("no description has the id {id:?}"),
         None => "no description: pipe one in, or give --text".to_string(),
     }))
-}
-
-/// Runs `work` with as many threads as `--jobs` asks for.
-pub fn in_parallel<T: Send>(common: &Common, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
-    // Nothing is open yet that would have to be closed: only the exit code is wanted.
-    on_interrupt(|| ());
-    Ok(Workers::new(common.jobs)?.within(work))
 }
 
 /// Writes a result as JSON or, by `text`, for people.

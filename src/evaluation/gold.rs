@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use serde::Deserialize;
 
 use super::brackets::{Bracket, brackets_of};
-use super::gold_tree::{meaning_of, tree_of};
+use super::gold_tree::tree_of;
 use super::labelled::parse_tree;
+use super::token_gold::{TokenEntry, TokenGrounding, grounding_of_tokens, tag_of};
 use crate::record::{Chunk, Direction, Grounding, Node, ObjectSlot, RoomSlot, Tag};
 
 /// What a description is labelled as.
@@ -20,8 +21,6 @@ pub struct Gold {
     pub chunks: Vec<Chunk>,
     /// Labelled brackets over its words; empty when it has no tree.
     pub brackets: BTreeSet<Bracket>,
-    /// What it means: room, nodes and object; nothing when it is not labelled with that.
-    pub grounding: Option<Grounding>,
     /// Whether it says what the description means.
     pub has_grounding: bool,
     /// The side that picks the room.
@@ -34,6 +33,8 @@ pub struct Gold {
     pub has_target: bool,
     /// References and directions, sorted.
     pub pairs: Vec<(String, Direction)>,
+    /// What it means, as the stages have it; nothing where it is not labelled.
+    pub grounding: Option<Grounding>,
     /// Ids of the furniture that the words allow.
     pub expect: Vec<String>,
 }
@@ -75,32 +76,6 @@ struct OwnGrounding {
     nodes: Vec<Node>,
 }
 
-/// A treebank's lines: chunks by token, a grounding for each.
-#[derive(Deserialize)]
-struct TokenEntry {
-    id: String,
-    text: String,
-    chunks: Vec<TokenChunk>,
-    #[serde(default)]
-    groundings: Vec<TokenGrounding>,
-}
-
-#[derive(Deserialize)]
-pub(super) struct TokenChunk {
-    pub(super) tag: String,
-    pub(super) start: usize,
-    pub(super) end: usize,
-}
-
-#[derive(Deserialize)]
-pub(super) struct TokenGrounding {
-    pub(super) room: Option<String>,
-    pub(super) object: Option<String>,
-    pub(super) reference: Option<String>,
-    pub(super) direction: Option<String>,
-    pub(super) target: Option<String>,
-}
-
 /// Reads gold descriptions, one JSON object a line; `file` is named in errors.
 pub fn read_gold(text: &str, file: &str) -> Result<Vec<Gold>, GoldError> {
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
@@ -124,29 +99,25 @@ fn from_own(entry: OwnEntry) -> Result<Gold, String> {
         return Err("`tree` and `text` have different words".to_string());
     }
     let chunks: Vec<_> = tree.chunks.iter().map(|chunk| chunk.to_chunk()).collect();
-    let nodes = entry.grounding.nodes;
+    let OwnGrounding { room, object, nodes } = entry.grounding;
+    let grounding =
+        Grounding { room: room.clone(), object: object.clone(), nodes: nodes.clone(), ..Grounding::default() };
     let mut pairs: Vec<_> =
         nodes.iter().flat_map(|node| &node.pairs).map(|pair| (pair.reference.clone(), pair.direction)).collect();
     pairs.sort();
-    let grounding = Grounding {
-        room: entry.grounding.room.clone(),
-        object: entry.grounding.object.clone(),
-        nodes: nodes.clone(),
-        ..Grounding::default()
-    };
-    let room = entry.grounding.room.unwrap_or_default();
+    let room = room.unwrap_or_default();
     Ok(Gold {
         brackets: brackets_of(&entry.text, &chunks),
         chunks,
-        grounding: Some(grounding),
         id: entry.id,
         text: entry.text,
         has_grounding: true,
         side: room.side,
         room: room.name,
-        object: entry.grounding.object.map(|object| object.name),
+        object: object.map(|object| object.name),
         has_target: nodes.iter().any(|node| node.target.is_some()),
         pairs,
+        grounding: Some(grounding),
         expect: entry.expect,
     })
 }
@@ -155,61 +126,28 @@ fn from_tokens(entry: TokenEntry) -> Gold {
     let last =
         |pick: fn(&TokenGrounding) -> Option<&String>| entry.groundings.iter().filter_map(pick).next_back().cloned();
     let room = last(|g| g.room.as_ref());
-    let side = side_of_room(room.as_deref());
-    let chunks = tree_of(&entry.text, &entry.chunks);
-    let grounding = meaning_of(&entry.text, &chunks, &entry.groundings);
-    let mut pairs: Vec<_> = entry.groundings.iter().filter_map(pair_of).collect();
+    // These corpora name the room by its side in the apartment.
+    let side = match room.as_deref() {
+        Some("living room") => Some(Direction::Right),
+        Some("bedroom" | "bed room") => Some(Direction::Left),
+        _ => None,
+    };
+    let mut pairs: Vec<_> = entry.groundings.iter().filter_map(|grounding| grounding.pair()).collect();
     pairs.sort();
     Gold {
         brackets: entry.chunks.iter().filter_map(|c| Some((tag_of(&c.tag)?, c.start, c.end))).collect(),
-        chunks,
-        grounding,
+        chunks: tree_of(&entry.text, &entry.chunks),
         has_grounding: !entry.groundings.is_empty(),
         side,
         room: None,
         object: last(|g| g.object.as_ref()).map(|object| object.replace(' ', "_")),
         has_target: entry.groundings.iter().any(|g| g.target.is_some()),
         pairs,
+        grounding: grounding_of_tokens(&entry),
         expect: Vec::new(),
         id: entry.id,
         text: entry.text,
     }
-}
-
-/// These corpora name the room by its side in the apartment.
-pub(super) fn side_of_room(room: Option<&str>) -> Option<Direction> {
-    match room {
-        Some("living room") => Some(Direction::Right),
-        Some("bedroom" | "bed room") => Some(Direction::Left),
-        _ => None,
-    }
-}
-
-pub(super) fn pair_of(grounding: &TokenGrounding) -> Option<(String, Direction)> {
-    let reference = grounding.reference.as_ref()?.replace(' ', "_");
-    // A reference without a direction is an empty cell of a move ahead.
-    let direction = match grounding.direction.as_deref() {
-        Some("back" | "behind") => Direction::Back,
-        Some("left") => Direction::Left,
-        Some("right") => Direction::Right,
-        Some("center" | "central") => Direction::Central,
-        Some("beside" | "side") => Direction::Side,
-        Some("between") => Direction::Between,
-        _ => Direction::Front,
-    };
-    Some((reference, direction))
-}
-
-/// Slips of the pen in public treebanks are read as what was meant.
-pub(super) fn tag_of(name: &str) -> Option<Tag> {
-    let name = match name {
-        "OBPT" => "OBTP",
-        "FURTR" => "FURTP",
-        "PERSP" => "PERS",
-        "IRMTP" => "IRMRP",
-        other => other,
-    };
-    Tag::from_name(name)
 }
 
 impl Gold {

@@ -1,8 +1,7 @@
-//! Gold trees and meanings of corpora that label chunks by token, one grounding a chunk.
+//! Gold trees of corpora that label chunks by token.
 
-use super::gold::{TokenChunk, TokenGrounding, pair_of, side_of_room, tag_of};
-use crate::grounding::{Meaning, assemble, chunk_words};
-use crate::record::{Chunk, Grounding};
+use super::token_gold::{TokenChunk, tag_of};
+use crate::record::Chunk;
 
 /// The tree over the words of `text`, chunks given in pre-order; what does not nest is left out.
 pub(super) fn tree_of(text: &str, chunks: &[TokenChunk]) -> Vec<Chunk> {
@@ -33,31 +32,6 @@ fn nest(level: &mut Vec<Chunk>, chunk: Chunk) {
     }
 }
 
-/// The meaning assembled from each chunk's label; nothing when labels and chunks do not line up.
-pub(super) fn meaning_of(text: &str, chunks: &[Chunk], groundings: &[TokenGrounding]) -> Option<Grounding> {
-    let words = chunk_words(text, chunks);
-    if groundings.is_empty() || words.len() != groundings.len() {
-        return None;
-    }
-    let meanings: Vec<Meaning> = groundings.iter().map(labelled).collect();
-    Some(assemble(&words, &meanings))
-}
-
-fn labelled(label: &TokenGrounding) -> Meaning {
-    let noun = |name: &Option<String>| name.as_ref().map(|name| name.replace(' ', "_"));
-    let pairs = pair_of(label).map(|(reference, direction)| Meaning::of_pair(&reference, direction, "labelled").pairs);
-    let side = side_of_room(label.room.as_deref());
-    Meaning {
-        side,
-        room: noun(&label.room).filter(|_| side.is_none()),
-        object: noun(&label.object),
-        target: noun(&label.target),
-        pairs: pairs.unwrap_or_default(),
-        score: 1.0,
-        ..Meaning::default()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use crate::evaluation::read_gold;
@@ -76,11 +50,5 @@ mod tests {
         assert_eq!(meaning.nodes.len(), 1);
         assert_eq!(meaning.nodes[0].pairs[0].direction, Direction::Side);
         assert_eq!(meaning.room.as_ref().and_then(|room| room.side), Some(Direction::Left));
-    }
-
-    #[test]
-    fn labels_that_do_not_line_up_with_the_chunks_give_no_meaning() {
-        let line = LINE.replace("[{},", "[");
-        assert!(read_gold(&line, "treebank.jsonl").expect("gold")[0].grounding.is_none());
     }
 }

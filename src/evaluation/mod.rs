@@ -1,8 +1,12 @@
 //! Experiments, metrics and tables: what the system reads, understands and finds, against gold.
 
+pub mod behavior;
 mod blame;
 mod brackets;
 mod compare;
+mod furniture;
+mod furniture_gold;
+mod furniture_table;
 mod gold;
 mod gold_tree;
 mod interval;
@@ -15,6 +19,7 @@ mod pipeline;
 mod report;
 mod score;
 mod table;
+mod token_gold;
 mod training_frame;
 
 mod what_if;
@@ -22,6 +27,9 @@ mod what_if;
 pub use blame::{Blame, Blames, Stage, Wanted, blame, blame_text, meaning_phrase};
 pub use brackets::{Bracket, brackets_of};
 pub use compare::{Change, CompareError, Comparison, Measure, compare, comparison_text, mcnemar_exact};
+pub use furniture::{FurnitureScores, SeenGroup, kind_of, score_furniture};
+pub use furniture_gold::{GoldFrame, GoldItem, gold_frames};
+pub use furniture_table::furniture_tables;
 pub use gold::{Gold, GoldError, read_gold};
 pub use interval::Rate;
 pub use labelled::{LabelledChunk, LabelledTree, TreeError, parse_tree};

@@ -13,7 +13,8 @@ mod settings;
 mod stage;
 
 pub use home::Home;
+pub use judge::ideal_detection;
 pub use outputs::Outputs;
 pub use run::{Run, run};
-pub use settings::{Perception, Settings, stream_of};
+pub use settings::{NoiseLevel, Perception, Settings, stream_of};
 pub use stage::Driver;

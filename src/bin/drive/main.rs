@@ -9,7 +9,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, FromLog, Intake, Program};
 use spatial_fetch::record::Trial;
-use spatial_fetch::trial::{Driver, Home, Perception, Settings};
+use spatial_fetch::trial::{Driver, Home, NoiseLevel, Perception, Settings};
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
 ///
@@ -30,6 +30,9 @@ struct Arguments {
     /// What the robot's eyes report
     #[arg(long, value_enum, default_value = "truth")]
     perception: Perception,
+    /// How imperfect the robot's wheels, sonars, compass and start are
+    #[arg(long, value_enum, default_value = "default")]
+    noise: NoiseLevel,
     #[command(flatten)]
     executive: executive::Arguments,
     #[command(flatten)]
@@ -54,8 +57,12 @@ impl Program for Arguments {
     fn run(self) -> Result<Exit, Failure> {
         let home =
             Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
-        let settings =
-            Settings { options: self.executive.options(), perception: self.perception, seed: self.common.seed };
+        let settings = Settings {
+            options: self.executive.options(),
+            perception: self.perception,
+            noise: self.noise,
+            seed: self.common.seed,
+        };
         let outputs = self.outputs.outputs(self.common.force);
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
         cli::run_filter_on(

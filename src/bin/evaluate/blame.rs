@@ -40,7 +40,7 @@ impl Arguments {
         let home =
             Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
         let settings = Settings { perception: self.perception, seed: self.common.seed, ..Settings::default() };
-        let blames = cli::in_parallel(&self.common, || blame(&gold, &home, &settings, self.measure, self.wanted))?;
+        let blames = cli::on_threads(self.common.jobs, || blame(&gold, &home, &settings, self.measure, self.wanted))?;
         cli::write_report(&self.common, &blames, blame_text)?;
         Ok(Exit::Done)
     }

@@ -1,12 +1,15 @@
 //! Scores records against gold, and runs the experiments: one file a subcommand.
 
+mod behavior;
 mod blame;
 mod compare;
 mod frames;
 mod merge;
 mod paper;
+mod perception;
 mod run;
 mod score;
+mod train;
 mod what_if;
 
 use std::process::ExitCode;
@@ -46,6 +49,12 @@ enum What {
     Merge(merge::Arguments),
     /// Render frames of rooms furnished at random, with the truth, to train and test perception on
     Frames(frames::Arguments),
+    /// Score detections against frames whose furniture is known
+    Perception(perception::Arguments),
+    /// Learn the furniture detector from such rooms
+    Train(train::Arguments),
+    /// Drive a corpus many times over: the paper's Tables II and III, ablations, and why it went wrong
+    Behavior(behavior::Arguments),
 }
 
 impl Program for Arguments {
@@ -60,6 +69,9 @@ impl Program for Arguments {
             What::Counterfactual(arguments) => &arguments.common,
             What::Merge(arguments) => &arguments.common,
             What::Frames(arguments) => &arguments.common,
+            What::Perception(arguments) => &arguments.common,
+            What::Train(arguments) => &arguments.common,
+            What::Behavior(arguments) => &arguments.common,
         }
     }
     fn schema() -> schemars::Schema {
@@ -70,6 +82,7 @@ impl Program for Arguments {
             What::Score(arguments) => arguments.common.files.is_empty(),
             What::Merge(arguments) => arguments.common.files.is_empty(),
             What::Counterfactual(arguments) => arguments.reads_standard_input(),
+            What::Perception(arguments) => arguments.common.files.is_empty(),
             _ => false,
         }
     }
@@ -83,6 +96,9 @@ impl Program for Arguments {
             What::Counterfactual(arguments) => arguments.run(),
             What::Merge(arguments) => arguments.run(),
             What::Frames(arguments) => arguments.run(),
+            What::Perception(arguments) => arguments.run(),
+            What::Train(arguments) => arguments.run(),
+            What::Behavior(arguments) => arguments.run(),
         }
     }
 }

@@ -36,7 +36,7 @@ impl Arguments {
         let homes =
             [Scene::apartment(), Scene::apartment_modified()].map(|scene| Home { map: RoomMap::apartment(), scene });
         let settings = Settings { perception: self.perception, seed: self.common.seed, ..Settings::default() };
-        let result = cli::in_parallel(&self.common, || {
+        let result = cli::on_threads(self.common.jobs, || {
             let (result, cases) = paper(&corpus, &gold, &homes, settings, self.seeds);
             let write = |folder: &PathBuf| write_report(folder, &result, &cases, &homes, self.common.force);
             (self.report.as_ref().map(write).transpose(), result)

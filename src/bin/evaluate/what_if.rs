@@ -46,7 +46,7 @@ impl Arguments {
             return Err(Failure::Usage(format!("--piece: no {unknown:?} here; there are {}", ids.join(", "))));
         }
         let settings = Settings { seed: self.common.seed, ..Settings::default() };
-        let found = cli::in_parallel(&self.common, || what_if(&id, &text, &home, &settings, &self.piece))?;
+        let found = cli::on_threads(self.common.jobs, || what_if(&id, &text, &home, &settings, &self.piece))?;
         cli::write_report(&self.common, &found, what_if_text)?;
         Ok(Exit::Done)
     }

@@ -1,6 +1,6 @@
 //! The experiments behind the three tables.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -8,11 +8,12 @@ use rayon::prelude::*;
 use super::figures;
 use super::{Cell, Column, Paper, PaperTable, Row, Source};
 use crate::behavior::Options;
-use crate::evaluation::{Gold, Measure, Pipeline, Rate, Scores, Understood, score};
+use crate::evaluation::behavior::{Condition, Score, Selection, Source as Instructions, drive_all, instructions};
+use crate::evaluation::{Gold, Pipeline, Rate, Scores, Understood, score};
 use crate::grounding::paper::{Model, Options as ModelOptions};
 use crate::grounding::{Grounder, Method};
 use crate::language::chunk_text;
-use crate::record::{Plan, Record, Trial};
+use crate::record::Record;
 use crate::trial::{Home, Run, Settings};
 
 /// One trial from the text, to be shown.
@@ -35,12 +36,14 @@ pub fn paper<'g>(
     settings: Settings,
     seeds: u64,
 ) -> (Paper, Vec<Case<'g>>) {
-    let unique = unique(gold);
     let tables = vec![
         table_one(gold),
-        table_two(&unique, &homes[0], settings, seeds),
-        table_three(&unique, &homes[1], settings, seeds),
+        table_two(gold, &homes[0], settings, seeds),
+        table_three(gold, &homes[1], settings, seeds),
     ];
+    let said = instructions(gold, &homes[0].map, Instructions::Gold, Selection::Unique);
+    let ids: BTreeSet<&str> = said.iter().map(|said| said.id.as_str()).collect();
+    let unique: Vec<&Gold> = gold.iter().filter(|gold| ids.contains(gold.id.as_str())).collect();
     let perception = clap::ValueEnum::to_possible_value(&settings.perception);
     let paper = Paper {
         corpus: corpus.to_string(),
@@ -68,16 +71,6 @@ const NOTES: [&str; 4] = [
     "the paper's simulation starts from gold instructions; `from text` reads the words first",
     "trials of one instruction under several seeds are not independent: the intervals are too narrow by up to the root of the number of seeds",
 ];
-
-/// The first description of each meaning.
-fn unique(gold: &[Gold]) -> Vec<&Gold> {
-    let mut seen = BTreeSet::new();
-    let key = |gold: &Gold| match &gold.grounding {
-        Some(meaning) => format!("{:?} {:?} {:?}", meaning.room, meaning.nodes, meaning.object),
-        None => gold.text.clone(),
-    };
-    gold.iter().filter(|gold| seen.insert(key(gold))).collect()
-}
 
 fn table_one(gold: &[Gold]) -> PaperTable {
     let composed = Grounder::new(Method::Composed, true);
@@ -119,77 +112,73 @@ fn command_row(name: &str, scores: &Scores) -> Row {
     Row { name: name.to_string(), source: Source::Ours, measure: "command".to_string(), cells, spl: None }
 }
 
-/// How a row's plans come about, and what the robot may do.
-struct Variant {
-    name: &'static str,
-    gold_instructions: bool,
-    options: Options,
-}
+/// What the executive may do in a pair of rows.
+type Variant = (&'static str, Instructions, Options);
 
 fn main_variants() -> Vec<Variant> {
     vec![
-        Variant { name: "gold instructions", gold_instructions: true, options: Options::default() },
-        Variant { name: "from text", gold_instructions: false, options: Options::default() },
+        ("gold instructions", Instructions::Gold, Options::default()),
+        ("from text", Instructions::Text, Options::default()),
     ]
 }
 
 fn ablations() -> Vec<Variant> {
-    let with = |name, options| Variant { name, gold_instructions: true, options };
+    let usual = Options::default();
     vec![
-        with("previous system: first pair only", Options { first_pair_only: true, ..Options::default() }),
-        with("one frame of reference", Options { one_frame: true, ..Options::default() }),
-        with("no fall-back", Options { no_fallback: true, ..Options::default() }),
-        with("words alone choose (no glance)", Options { no_glance: true, ..Options::default() }),
-        with("blind: nearest table first", Options { blind: true, ..Options::default() }),
+        ("previous system: first pair only", Instructions::Gold, Options { first_pair_only: true, ..usual }),
+        ("one frame of reference", Instructions::Gold, Options { one_frame: true, ..usual }),
+        ("no fall-back", Instructions::Gold, Options { no_fallback: true, ..usual }),
+        ("no localisation", Instructions::Gold, Options { no_localization: true, ..usual }),
+        ("words alone choose (no glance)", Instructions::Gold, Options { no_glance: true, ..usual }),
+        ("blind: nearest table first", Instructions::Gold, Options { blind: true, ..usual }),
     ]
 }
 
-fn table_two(gold: &[&Gold], home: &Home, settings: Settings, seeds: u64) -> PaperTable {
+fn table_two(gold: &[Gold], home: &Home, settings: Settings, seeds: u64) -> PaperTable {
     let variants = main_variants().into_iter().chain(ablations());
-    let ours = variants.flat_map(|variant| trial_rows(&variant, gold, home, settings, seeds));
+    let ours = variants.flat_map(|variant| trial_rows(variant, gold, home, settings, seeds));
     let title = "Table II: the fetch task, furniture as it was".to_string();
     PaperTable { title, rows: figures::table_two().into_iter().chain(ours).collect() }
 }
 
-fn table_three(gold: &[&Gold], home: &Home, settings: Settings, seeds: u64) -> PaperTable {
-    let ours = main_variants().into_iter().flat_map(|variant| trial_rows(&variant, gold, home, settings, seeds));
+fn table_three(gold: &[Gold], home: &Home, settings: Settings, seeds: u64) -> PaperTable {
+    let ours = main_variants().into_iter().flat_map(|variant| trial_rows(variant, gold, home, settings, seeds));
     let title = "Table III: the fetch task, furniture moved".to_string();
     PaperTable { title, rows: figures::table_three().into_iter().chain(ours).collect() }
 }
 
 /// Two rows: found, and right first.
-fn trial_rows(variant: &Variant, gold: &[&Gold], home: &Home, settings: Settings, seeds: u64) -> [Row; 2] {
-    let gold: Vec<&Gold> =
-        gold.iter().filter(|gold| !variant.gold_instructions || gold.grounding.is_some()).copied().collect();
-    let tasks: Vec<(&Gold, u64)> = gold.iter().flat_map(|gold| (0..seeds).map(move |seed| (*gold, seed))).collect();
-    let trial = |&(gold, seed): &(&Gold, u64)| {
-        let settings = Settings { options: variant.options, seed: settings.seed + seed, ..settings };
-        let pipeline = Pipeline::new(home, settings);
-        pipeline.drive(&gold.id, &plan_for(variant, &pipeline, gold)).trial
-    };
-    let trials: Vec<Trial> = tasks.par_iter().map(trial).collect();
-    [("found", Measure::Found), ("right first", Measure::RightFirst)].map(|(name, measure)| {
+fn trial_rows(
+    (name, source, options): Variant,
+    gold: &[Gold],
+    home: &Home,
+    settings: Settings,
+    seeds: u64,
+) -> [Row; 2] {
+    let said = instructions(gold, &home.map, source, Selection::Unique);
+    let condition = Condition { name: name.to_string(), home, options };
+    let scores = drive_all(&said, &condition, &settings, seeds, &|| ());
+    let by_id: HashMap<&str, &Gold> = gold.iter().map(|gold| (gold.id.as_str(), gold)).collect();
+    let trials: Vec<(&Gold, &Score)> = said
+        .iter()
+        .zip(&scores)
+        .flat_map(|(said, scores)| scores.iter().filter_map(|score| Some((*by_id.get(said.id.as_str())?, score))))
+        .collect();
+    let spl: f64 = trials.iter().map(|(_, score)| score.spl).sum::<f64>() / trials.len().max(1) as f64;
+    let reached = |measure: &str, score: &Score| if measure == "found" { score.found } else { score.right_first };
+    ["found", "right first"].map(|measure| {
         let mut rates: BTreeMap<Column, Rate> = BTreeMap::new();
-        for ((gold, _), trial) in tasks.iter().zip(&trials) {
-            let reached = measure.reached(Some(trial));
-            columns_of(gold).iter().for_each(|column| rates.entry(*column).or_default().count(reached));
+        for (gold, score) in &trials {
+            columns_of(gold).iter().for_each(|column| rates.entry(*column).or_default().count(reached(measure, score)));
         }
-        let spl: f64 = trials.iter().filter_map(|trial| trial.spl).map(|spl| spl.0).sum();
         Row {
-            name: variant.name.to_string(),
+            name: name.to_string(),
             source: Source::Ours,
-            measure: name.to_string(),
+            measure: measure.to_string(),
             cells: rates.into_iter().map(|(column, rate)| (column, rate.into())).collect(),
-            spl: (measure == Measure::Found && !trials.is_empty()).then(|| (spl / trials.len() as f64).into()),
+            spl: (measure == "found").then(|| spl.into()),
         }
     })
-}
-
-fn plan_for(variant: &Variant, pipeline: &Pipeline, gold: &Gold) -> Plan {
-    match &gold.grounding {
-        Some(meaning) if variant.gold_instructions => pipeline.plan(meaning),
-        _ => pipeline.understand(&gold.text).plan,
-    }
 }
 
 fn columns_of(gold: &Gold) -> [Column; 3] {
