@@ -24,4 +24,4 @@ pub use interrupt::on_interrupt;
 pub use output::{SharedSink, Sink, open_output};
 pub use program::{Program, command_of, main};
 pub use progress::Progress;
-pub use scores::{Table, load_gold, read_lines, write_scores};
+pub use scores::{Table, load_corpora, load_gold, read_lines, write_report, write_scores};

@@ -44,14 +44,39 @@ pub fn read_lines(files: &[PathBuf]) -> Result<Vec<String>, Failure> {
 
 /// Writes scores as text or JSON; a record that was missing or doubled makes the run a lossy one.
 pub fn write_scores(common: &Common, table: &Table) -> Result<Exit, Failure> {
-    let text = match common.format {
-        Format::Text => text_tables(&table.title, &table.scores),
-        Format::Json => serde_json::to_string(&table.scores).map_err(|e| Failure::Failed(e.to_string()))?,
-    };
-    let sink = open_output(common)?;
-    sink.write(format!("{text}\n").as_bytes())?;
-    sink.finish()?;
+    write_report(common, &table.scores, || text_tables(&table.title, &table.scores))?;
     let lossless =
         table.scores.missing.is_empty() && table.scores.doubled.is_empty() && table.scores.unknown.is_empty();
     Ok(if lossless { Exit::Done } else { Exit::Lost })
+}
+
+/// Writes a report as JSON, or as the text that `table` draws.
+pub fn write_report(
+    common: &Common,
+    report: &impl serde::Serialize,
+    table: impl FnOnce() -> String,
+) -> Result<(), Failure> {
+    let text = match common.format {
+        Format::Text => table(),
+        Format::Json => serde_json::to_string(report).map_err(|e| Failure::Failed(e.to_string()))?,
+    };
+    let sink = open_output(common)?;
+    sink.write(format!("{text}\n").as_bytes())?;
+    sink.finish()
+}
+
+/// Gold corpora by name: the files, or the shipped templates and speech where none is named.
+pub fn load_corpora(files: &[PathBuf]) -> Result<Vec<(String, Vec<Gold>)>, Failure> {
+    const SHIPPED: [(&str, &str); 2] = [
+        ("templates.jsonl", include_str!("../../corpus/templates.jsonl")),
+        ("speech.jsonl", include_str!("../../corpus/speech.jsonl")),
+    ];
+    let read = |text: &str, file: &str| {
+        let gold = read_gold(text, file).map_err(|error| Failure::Failed(error.to_string()))?;
+        Ok((file.to_string(), gold))
+    };
+    match files {
+        [] => SHIPPED.iter().map(|(file, text)| read(text, file)).collect(),
+        files => files.iter().map(|path| read(&read_file(path)?, &path.display().to_string())).collect(),
+    }
 }

@@ -1,15 +1,26 @@
 //! Experiments, metrics and tables: what the system reads, understands and finds, against gold.
 
 mod brackets;
+mod chunking;
 mod gold;
+mod grounding;
+mod import;
 mod interval;
 mod labelled;
+mod meaning_gold;
 mod model;
 mod score;
 mod table;
+mod treebank;
 
 pub use brackets::{Bracket, brackets_of};
-pub use gold::{Gold, GoldError, read_gold};
+pub use chunking::{ChunkingScores, TagScores, chunking_table, score_chunking};
+pub use gold::{Gold, GoldError, Rules, read_gold};
+pub use grounding::{
+    Bin, Disagreement, Experiment, GroundingScores, Kept, MeaningRates, Noise, SplitScores, Spread, TreeRates,
+    evaluate_grounding, grounding_table, misheard,
+};
+pub use import::{ImportError, Imported, import};
 pub use interval::Rate;
 pub use labelled::{LabelledChunk, LabelledTree, TreeError, parse_tree};
 pub use model::training_record;

@@ -1,5 +1,8 @@
 //! Scores records against gold, and runs the experiments: one file a subcommand.
 
+mod chunking;
+mod grounding;
+mod import;
 mod run;
 mod score;
 
@@ -25,6 +28,12 @@ struct Arguments {
 enum What {
     /// Score records from files or standard input
     Score(score::Arguments),
+    /// Chunk corpora and score the trees
+    Chunking(chunking::Arguments),
+    /// Ground corpora by both methods and score the meanings
+    Grounding(grounding::Arguments),
+    /// Read the authors' public treebank and groundings into this project's format
+    Import(import::Arguments),
     /// Run a corpus end to end, from text to trial, and score it
     Run(run::Arguments),
 }
@@ -34,6 +43,9 @@ impl Program for Arguments {
     fn common(&self) -> &Common {
         match &self.what {
             What::Score(arguments) => &arguments.common,
+            What::Chunking(arguments) => &arguments.common,
+            What::Grounding(arguments) => &arguments.common,
+            What::Import(arguments) => &arguments.common,
             What::Run(arguments) => &arguments.common,
         }
     }
@@ -46,6 +58,9 @@ impl Program for Arguments {
     fn run(self) -> Result<Exit, Failure> {
         match self.what {
             What::Score(arguments) => arguments.run(),
+            What::Chunking(arguments) => arguments.run(),
+            What::Grounding(arguments) => arguments.run(),
+            What::Import(arguments) => arguments.run(),
             What::Run(arguments) => arguments.run(),
         }
     }
