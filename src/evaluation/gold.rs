@@ -10,7 +10,7 @@ use super::meaning_gold::MeaningEntry;
 use super::model::{in_order, label_of};
 use super::treebank::TokenEntry;
 use crate::grounding::paper::Label;
-use crate::record::{Chunk, Direction, Node, ObjectSlot, RoomSlot, Tag, Token};
+use crate::record::{Chunk, Direction, Grounding, Node, ObjectSlot, RoomSlot, Tag, Token};
 
 /// What a description is labelled as.
 #[derive(Clone, Debug, Default)]
@@ -47,6 +47,8 @@ pub struct Gold {
     pub chunks: Vec<Chunk>,
     /// A label for each chunk of the tree in pre-order; empty when there is none.
     pub labels: Vec<Label>,
+    /// What it means, as the stages have it; nothing where it is not labelled.
+    pub grounding: Option<Grounding>,
     /// Ids of the furniture that the words allow.
     pub expect: Vec<String>,
 }
@@ -123,11 +125,13 @@ fn from_own(entry: OwnEntry) -> Result<Gold, String> {
         return Err("`tree` and `text` have different words".to_string());
     }
     let chunks: Vec<_> = tree.chunks.iter().map(|chunk| chunk.to_chunk()).collect();
-    let nodes = entry.grounding.nodes;
+    let OwnGrounding { room, object, nodes } = entry.grounding;
+    let grounding =
+        Grounding { room: room.clone(), object: object.clone(), nodes: nodes.clone(), ..Grounding::default() };
     let mut pairs: Vec<_> =
         nodes.iter().flat_map(|node| &node.pairs).map(|pair| (pair.reference.clone(), pair.direction)).collect();
     pairs.sort();
-    let room = entry.grounding.room.unwrap_or_default();
+    let room = room.unwrap_or_default();
     Ok(Gold {
         brackets: brackets_of(&entry.text, &chunks),
         id: entry.id,
@@ -135,12 +139,13 @@ fn from_own(entry: OwnEntry) -> Result<Gold, String> {
         has_grounding: true,
         side: room.side,
         room: room.name,
-        object: entry.grounding.object.map(|object| object.name),
+        object: object.map(|object| object.name),
         has_target: nodes.iter().any(|node| node.target.is_some()),
         target: nodes.iter().rev().find_map(|node| node.target.clone()),
         pairs,
         labels: in_order(&tree.chunks).into_iter().map(label_of).collect(),
         chunks,
+        grounding: Some(grounding),
         expect: entry.expect,
         ..Gold::default()
     })

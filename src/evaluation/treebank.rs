@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::gold::{Gold, Rules};
 use crate::grounding::paper::Label;
-use crate::record::{Chunk, Direction, Tag, Token};
+use crate::grounding::{Meaning, assemble, chunk_words};
+use crate::record::{Chunk, Direction, Grounding, Tag, Token};
 
 /// One line of a treebank.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -51,9 +52,11 @@ impl TokenEntry {
         pairs.sort();
         let target = last(|g| g.target.as_ref()).map(|target| target.replace(' ', "_"));
         let tokens = self.tokens();
+        let (chunks, grounding) = self.meant(&tokens);
         Gold {
             brackets: self.chunks.iter().filter_map(|c| Some((tag_of(&c.tag)?, c.start, c.end))).collect(),
-            chunks: nested(&self.chunks, &tokens),
+            chunks,
+            grounding,
             labels: self.groundings.iter().map(label_of).collect(),
             tokens,
             has_grounding: !self.groundings.is_empty(),
@@ -71,13 +74,47 @@ impl TokenEntry {
 
     /// The words where they stand in the text, which joins them by one space.
     fn tokens(&self) -> Vec<Token> {
-        let mut at = 0;
-        let token = |(text, pos): &(String, String)| {
-            let start = at;
-            at += text.len() + 1;
-            Token { text: text.clone(), pos: pos.clone(), start, end: start + text.len() }
+        let mut start = 0;
+        let token = |(i, text): (usize, &str)| {
+            let pos = self.tokens.get(i).map(|(_, pos)| pos.clone()).unwrap_or_default();
+            let token = Token { text: text.to_string(), pos, start, end: start + text.len() };
+            start = token.end + 1;
+            token
         };
-        self.tokens.iter().map(token).collect()
+        self.text.split(' ').enumerate().map(token).collect()
+    }
+
+    /// The tree, and what the labels of its chunks come to by the assembly that `ground` uses; nothing without labels.
+    fn meant(&self, tokens: &[Token]) -> (Vec<Chunk>, Option<Grounding>) {
+        let mut labels = self.groundings.iter().peekable();
+        let mut meanings = Vec::new();
+        let mut flat: Vec<Chunk> = Vec::new();
+        for chunk in &self.chunks {
+            // Where labels and chunks do not line up, a label belongs to the next chunk of its tag.
+            if self.groundings.len() != self.chunks.len() {
+                while labels.next_if(|label| label.tag != chunk.tag).is_some() {}
+            }
+            let meaning = labels.next().map(TokenGrounding::meaning).unwrap_or_default();
+            let ends = (tokens.get(chunk.start), chunk.end.checked_sub(1).and_then(|last| tokens.get(last)));
+            let (Some(tag), (Some(first), Some(last))) = (tag_of(&chunk.tag), ends) else { continue };
+            flat.push(Chunk { tag, start: first.start, end: last.end, rule: None, chunks: Vec::new() });
+            meanings.push(meaning);
+        }
+        let chunks = nested(flat);
+        let grounding = (!self.groundings.is_empty()).then(|| assemble(&chunk_words(&self.text, &chunks), &meanings));
+        (chunks, grounding)
+    }
+}
+
+impl TokenGrounding {
+    fn meaning(&self) -> Meaning {
+        let mut label = label_of(self);
+        if label.room.as_deref() == Some("bed room") {
+            label.room = Some("bedroom".to_string());
+        }
+        // A reference without a direction is an empty cell of a move ahead.
+        label.direction = label.direction.or(label.reference.as_ref().map(|_| Direction::Front));
+        label.meaning(1.0, "labelled".to_string())
     }
 }
 
@@ -90,25 +127,26 @@ pub(super) fn side_of_room(name: Option<&str>) -> Option<Direction> {
     }
 }
 
-/// The tree over bytes of chunks over tokens in pre-order; chunks that do not fit the tokens are left out.
-fn nested(chunks: &[TokenChunk], tokens: &[Token]) -> Vec<Chunk> {
-    let mut open: Vec<(usize, Chunk)> = Vec::new();
-    let mut roots = Vec::new();
-    fn close(open: &mut Vec<(usize, Chunk)>, roots: &mut Vec<Chunk>, depth: usize) {
-        while open.last().is_some_and(|(known, _)| *known >= depth) {
-            let Some((_, chunk)) = open.pop() else { return };
-            open.last_mut().map_or(&mut *roots, |(_, parent)| &mut parent.chunks).push(chunk);
+/// Chunks in pre-order, each put into the one whose span holds it.
+fn nested(flat: Vec<Chunk>) -> Vec<Chunk> {
+    let mut roots: Vec<Chunk> = Vec::new();
+    let mut open: Vec<Chunk> = Vec::new();
+    for chunk in flat {
+        while open.last().is_some_and(|parent| parent.end <= chunk.start) {
+            close(&mut open, &mut roots);
         }
+        open.push(chunk);
     }
-    for chunk in chunks {
-        let ends = (tokens.get(chunk.start), chunk.end.checked_sub(1).and_then(|last| tokens.get(last)));
-        let (Some(tag), (Some(first), Some(last))) = (tag_of(&chunk.tag), ends) else { continue };
-        close(&mut open, &mut roots, chunk.depth);
-        let made = Chunk { tag, start: first.start, end: last.end, rule: None, chunks: Vec::new() };
-        open.push((chunk.depth, made));
+    while !open.is_empty() {
+        close(&mut open, &mut roots);
     }
-    close(&mut open, &mut roots, 0);
     roots
+}
+
+fn close(open: &mut Vec<Chunk>, roots: &mut Vec<Chunk>) {
+    if let Some(chunk) = open.pop() {
+        open.last_mut().map_or(roots, |parent| &mut parent.chunks).push(chunk);
+    }
 }
 
 fn label_of(grounding: &TokenGrounding) -> Label {
@@ -149,4 +187,27 @@ pub(super) fn tag_of(name: &str) -> Option<Tag> {
         other => other,
     };
     Tag::from_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_labels_of_a_treebank_come_to_room_nodes_and_object() {
+        let entry: TokenEntry = serde_json::from_str(
+            r#"{"id":"1","text":"the cup is in the room on the left on the table behind the sofa",
+                "chunks":[{"tag":"OBTP","start":0,"end":15},{"tag":"ORMTP","start":3,"end":9},{"tag":"ORMRP","start":6,"end":9},
+                          {"tag":"FURTP","start":9,"end":15},{"tag":"FURRP","start":12,"end":15}],
+                "groundings":[{"tag":"OBTP","object":"cup"},{"tag":"ORMTP"},{"tag":"ORMRP","room":"bed room"},
+                              {"tag":"FURTP","target":"table"},{"tag":"FURRP","reference":"couch","direction":"back"}]}"#,
+        )
+        .expect("an entry");
+        let grounding = entry.into_gold().grounding.expect("labelled");
+        assert_eq!(grounding.room.and_then(|room| room.name).as_deref(), Some("bedroom"));
+        assert_eq!(grounding.object.map(|object| object.name).as_deref(), Some("cup"));
+        assert_eq!(grounding.nodes.len(), 1);
+        assert_eq!(grounding.nodes[0].target.as_deref(), Some("table"));
+        assert_eq!(grounding.nodes[0].pairs[0].phrase(), "back of the couch");
+    }
 }

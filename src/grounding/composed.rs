@@ -56,7 +56,7 @@ impl Words<'_> {
             matches!(unit.role(), Some(Role::Determiner | Role::Number | Role::Adjective | Role::Conjunction))
                 || unit.class().is_some()
         };
-        self.units.iter().all(mentions)
+        leading_relation(self.units).is_none() && self.units.iter().all(mentions)
     }
 
     fn has_role(&self, role: Role) -> bool {

@@ -7,12 +7,14 @@
 mod home;
 mod judge;
 mod outputs;
+mod recorder;
 mod run;
 mod settings;
 mod stage;
 
 pub use home::Home;
+pub use judge::ideal_detection;
 pub use outputs::Outputs;
 pub use run::{Run, run};
-pub use settings::{Perception, Settings, stream_of};
+pub use settings::{NoiseLevel, Perception, Settings, stream_of};
 pub use stage::Driver;

@@ -7,14 +7,18 @@
 pub mod camera;
 mod check;
 mod error;
+pub mod families;
 mod furniture;
 mod map;
+mod noise;
 mod scene;
 pub mod solid;
+pub mod training;
 
 pub use check::check;
 pub use error::WorldError;
 pub use furniture::{CATEGORIES, OBJECTS, Shape, Size, category, object};
 pub use map::{Door, Room, RoomMap};
+pub use noise::Noise;
 pub use scene::{Item, PlacedObject, Scene};
 pub use solid::{Color, Ray, Solid};
