@@ -48,6 +48,72 @@ fn few(folder: &std::path::Path) -> String {
 }
 
 #[test]
+fn the_papers_tables_and_the_report_are_the_same_bytes_for_any_number_of_jobs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let gold = few(folder.path());
+    let tables = |jobs: &str| {
+        let report = folder.path().join(jobs);
+        let report = report.to_str().expect("UTF-8");
+        let arguments = ["paper", "--gold", &gold, "--seeds", "2", "-j", jobs, "--report", report];
+        let out = run("evaluate", &arguments, "").expect_code(0).out;
+        (out, std::fs::read(format!("{report}/index.html")).expect("a report"))
+    };
+    let one = tables("1");
+    assert!(one == tables("3"));
+    let result: serde_json::Value = serde_json::from_str(&one.0).expect("JSON");
+    assert_eq!(result["tables"].as_array().map(Vec::len), Some(3));
+    let text = run("evaluate", &["paper", "--gold", &gold, "--seeds", "1", "--format", "text"], "").expect_code(0).out;
+    assert!(text.contains("paper: robot") && text.contains("26/32 (64.7–91.1)"), "{text}");
+}
+
+#[test]
+fn a_report_is_not_overwritten_without_force() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let gold = few(folder.path());
+    let report = folder.path().join("report");
+    let arguments = ["paper", "--gold", &gold, "--seeds", "1", "--report", report.to_str().expect("UTF-8")];
+    run("evaluate", &arguments, "").expect_code(0);
+    let ran = run("evaluate", &arguments, "").expect_code(2);
+    assert!(ran.err.contains("index.html exists"), "{}", ran.err);
+}
+
+#[test]
+fn a_regression_fails_when_asked_to() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let good = pipe(&["chunk", "ground", "plan", "drive"], "the mug is in the bedroom on the table by the chairs\n");
+    let bad = good.replace("\"outcome\":\"found\"", "\"outcome\":\"not_found\"");
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        path.to_str().expect("UTF-8").to_string()
+    };
+    let (a, b) = (file("a.jsonl", &good), file("b.jsonl", &bad));
+    let text = run("evaluate", &["compare", &a, &b, "--format", "text"], "").expect_code(0).out;
+    assert!(text.contains("broken: 1") && text.contains("1: trial.outcome found → not_found"), "{text}");
+    let ran = run("evaluate", &["compare", &a, &b, "--fail-on-regression"], "").expect_code(1);
+    assert!(ran.err.contains("1 records broken"), "{}", ran.err);
+    run("evaluate", &["compare", &b, &a, "--fail-on-regression"], "").expect_code(0);
+    run("evaluate", &["compare", &a], "").expect_code(2);
+}
+
+#[test]
+fn failures_are_charged_and_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = run("evaluate", &["blame", "--gold", &few(folder.path()), "--format", "text"], "").expect_code(0).out;
+    assert!(text.contains("of 3 descriptions failed"), "{text}");
+}
+
+#[test]
+fn what_if_names_the_word_that_decides() {
+    let sentence = "the mug is in the bedroom on the table by the chairs\n";
+    let arguments = ["what-if", "--piece", "couch-1", "--format", "text"];
+    let text = run("evaluate", &arguments, sentence).expect_code(0).out;
+    assert!(text.contains("as it is: first to hexagon-table-1, found"), "{text}");
+    assert!(text.contains("bedroom → living room"), "{text}");
+    run("evaluate", &["what-if", "--piece", "sofa-9"], sentence).expect_code(2);
+}
+
+#[test]
 fn the_experiments_with_the_robot_stand_beside_the_papers_figures() {
     let folder = tempfile::tempdir().expect("a folder");
     let arguments = ["behavior", "--gold", &few(folder.path()), "--seeds", "2", "--explain", "--format", "text"];

@@ -366,7 +366,7 @@ mod tests {
         let wanted = Wanted { pairs: vec![behind], ..Wanted::default() };
         let (room, arrived) = (room(), Pose::new(0.0, 3.0, FRAC_PI_2));
         let ranked = rank(&only_front, &wanted, Place { room: &room, arrived }, Lexicon::embedded());
-        assert!(ranked[0].reading.contains("intrinsic frame, viewer 0.00"), "{}", ranked[0].reading);
+        assert!(ranked[0].reading.contains("(intrinsic frame, facing"), "{}", ranked[0].reading);
     }
 
     #[test]

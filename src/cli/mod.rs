@@ -32,6 +32,8 @@ pub use log_input::FromLog;
 pub use output::{SharedSink, Sink, open_output};
 pub use program::{Program, command_of, main};
 pub use progress::Progress;
-pub use scores::{Table, load_gold, read_lines, write_scores};
+pub use scores::{
+    Table, find_description, load_gold, load_gold_with, read_lines, write_report, write_scores, write_text,
+};
 pub use source::Source;
 pub use threads::on_threads;

@@ -3,7 +3,8 @@
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{Parser, ValueEnum};
+use clap_complete::Shell;
 use schemars::Schema;
 
 use super::{Common, Exit, Failure, Reporter, exit};
@@ -35,6 +36,9 @@ pub fn command_of<P: Program>() -> clap::Command {
 
 /// Parses the arguments, runs the binary, reports how it ended.
 pub fn main<P: Program>() -> ExitCode {
+    if let Some(text) = about_itself::<P>() {
+        return exit::code(&print(&text));
+    }
     let program = match P::try_parse() {
         Ok(program) => program,
         Err(error) => {
@@ -57,9 +61,7 @@ fn dispatch<P: Program>(program: P) -> Result<Exit, Failure> {
         return print(&format!("{:#}\n", P::schema().as_value()));
     }
     if let Some(shell) = program.common().completions {
-        let mut script = Vec::new();
-        clap_complete::generate(shell, &mut command_of::<P>(), P::NAME, &mut script);
-        return print(&String::from_utf8_lossy(&script));
+        return print(&completions(&mut command_of::<P>(), shell));
     }
     if program.reads_standard_input() && io::stdin().is_terminal() {
         // Usage on standard error, for someone who typed the bare name.
@@ -67,6 +69,35 @@ fn dispatch<P: Program>(program: P) -> Result<Exit, Failure> {
         return Err(Failure::Usage("no input: name a file, or pipe records in".to_string()));
     }
     program.run()
+}
+
+/// What `--man [SUBCOMMAND]` and `--completions SHELL` print before anything else is parsed: they need no subcommand.
+fn about_itself<P: Program>() -> Option<String> {
+    let mut arguments = std::env::args().skip(1);
+    let (option, value) = (arguments.next()?, arguments.next());
+    let mut command = command_of::<P>();
+    match option.as_str() {
+        "--man" => {
+            command.build();
+            let page = match value {
+                Some(name) => command.find_subcommand(&name)?.clone(),
+                None => command,
+            };
+            let mut roff = Vec::new();
+            // Writing to memory cannot fail.
+            let _ = clap_mangen::Man::new(page).render(&mut roff);
+            Some(String::from_utf8_lossy(&roff).into_owned())
+        }
+        "--completions" => Some(completions(&mut command, Shell::from_str(&value?, true).ok()?)),
+        _ => None,
+    }
+}
+
+fn completions(command: &mut clap::Command, shell: Shell) -> String {
+    let name = command.get_name().to_string();
+    let mut script = Vec::new();
+    clap_complete::generate(shell, command, name, &mut script);
+    String::from_utf8_lossy(&script).into_owned()
 }
 
 fn print(text: &str) -> Result<Exit, Failure> {

@@ -2,11 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
+
 use super::{Common, Exit, Failure, Format, Inputs, Source, open_output, read_file};
-use crate::evaluation::{Gold, Scores, read_gold, text_tables};
+use crate::evaluation::{Gold, Scores, add_meanings, read_gold, text_tables};
+use crate::record::Record;
 
 /// Scores with the line that stands over them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Table {
     /// What was scored.
     pub title: String,
@@ -21,6 +24,52 @@ pub fn load_gold(path: Option<&Path>) -> Result<Vec<Gold>, Failure> {
         None => (include_str!("../../corpus/templates.jsonl").to_string(), "templates.jsonl".to_string()),
     };
     read_gold(&text, &file).map_err(|error| Failure::Failed(error.to_string()))
+}
+
+/// The same, with the meanings of another file when one is named.
+pub fn load_gold_with(path: Option<&Path>, meanings: Option<&Path>) -> Result<Vec<Gold>, Failure> {
+    let gold = load_gold(path)?;
+    let Some(meanings) = meanings else { return Ok(gold) };
+    let (text, file) = (read_file(meanings)?, meanings.display().to_string());
+    add_meanings(gold, &text, &file).map_err(|error| Failure::Failed(error.to_string()))
+}
+
+/// Id and text of the description with that id, or of the first one.
+pub fn find_description(files: &[PathBuf], id: Option<&str>) -> Result<(String, String), Failure> {
+    for (i, line) in read_lines(files)?.iter().enumerate() {
+        let number = (i + 1).to_string();
+        let (found, text) = if line.trim_start().starts_with('{') {
+            let wrong = |error: &dyn std::fmt::Display| Failure::Failed(format!("record {number}: {error}"));
+            let record = Record::parse(line).map_err(|error| wrong(&error))?;
+            let text = record.require("text", "a record needs the description under this key");
+            (record.id().unwrap_or_else(|| number.clone()), text.map_err(|error| wrong(&error))?)
+        } else {
+            (number, line.trim().to_string())
+        };
+        if id.is_none_or(|id| id == found) {
+            return Ok((found, text));
+        }
+    }
+    Err(Failure::Failed(match id {
+        Some(id) => format!("no description has the id {id:?}"),
+        None => "no description: pipe one in, or give --text".to_string(),
+    }))
+}
+
+/// Writes a result as JSON or, by `text`, for people.
+pub fn write_report<T: Serialize>(common: &Common, report: &T, text: fn(&T) -> String) -> Result<(), Failure> {
+    let written = match common.format {
+        Format::Text => text(report),
+        Format::Json => serde_json::to_string(report).map_err(|e| Failure::Failed(e.to_string()))?,
+    };
+    write_text(common, &written)
+}
+
+/// Writes text, and a line's end after it, to where `--output` says.
+pub fn write_text(common: &Common, text: &str) -> Result<(), Failure> {
+    let sink = open_output(common)?;
+    sink.write(format!("{text}\n").as_bytes())?;
+    sink.finish()
 }
 
 /// All lines of the inputs that are not blank.
@@ -44,13 +93,10 @@ pub fn read_lines(files: &[PathBuf]) -> Result<Vec<String>, Failure> {
 
 /// Writes scores as text or JSON; a record that was missing or doubled makes the run a lossy one.
 pub fn write_scores(common: &Common, table: &Table) -> Result<Exit, Failure> {
-    let text = match common.format {
-        Format::Text => text_tables(&table.title, &table.scores),
-        Format::Json => serde_json::to_string(&table.scores).map_err(|e| Failure::Failed(e.to_string()))?,
-    };
-    let sink = open_output(common)?;
-    sink.write(format!("{text}\n").as_bytes())?;
-    sink.finish()?;
+    match common.format {
+        Format::Text => write_report(common, table, |table| text_tables(&table.title, &table.scores))?,
+        Format::Json => write_report(common, &table.scores, |_| String::new())?,
+    }
     let lossless =
         table.scores.missing.is_empty() && table.scores.doubled.is_empty() && table.scores.unknown.is_empty();
     Ok(if lossless { Exit::Done } else { Exit::Lost })

@@ -1,9 +1,11 @@
 //! `--jobs` for work that is no filter.
 
-use super::Failure;
+use super::{Failure, on_interrupt};
 
 /// Does `work` with its parallel parts on so many threads; 0 is one for each core.
 pub fn on_threads<T: Send>(jobs: usize, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    // Nothing is open yet that would have to be closed: an interrupt wants the exit code only.
+    on_interrupt(|| ());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
     let pool = pool.map_err(|error| Failure::Failed(format!("cannot start {jobs} threads: {error}")))?;
     Ok(pool.install(work))

@@ -11,7 +11,7 @@ const MARGIN: f64 = 24.0;
 /// Pixels above them, for the sentence.
 const TITLE: f64 = 30.0;
 /// Characters a line of the title holds, for a metre of width.
-const TITLE_CHARACTERS_PER_M: f64 = 8.6;
+const TITLE_CHARACTERS_PER_M: f64 = 7.4;
 
 /// A labelled outline, metres.
 #[derive(Clone, Debug)]
@@ -104,7 +104,7 @@ impl Canvas {
             r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0} {height:.0}" width="{width:.0}" height="{height:.0}" role="img" font-family="sans-serif">"#
         ));
         self.put(format_args!("<title>{}</title>", escaped(title)));
-        self.put(format_args!("<style>.wall{{stroke:#333;stroke-width:4;stroke-linecap:square}}.item{{fill:#e8dcc8;stroke:#8a7350;stroke-width:1.5}}.found{{fill:#cfe8cf;stroke:#2e7d32;stroke-width:2.5}}.path{{stroke:#c2185b;stroke-width:2.2;stroke-linecap:round}}.tick{{stroke:#c2185b;stroke-width:1.1;opacity:.5}}.label{{font-size:12px;fill:#4a3c22;text-anchor:middle}}.room{{font-size:17px;fill:#b9bcc2;text-anchor:middle}}.title{{font-size:16px;fill:#111}}.caption{{font-size:13px;fill:#555}}</style>"));
+        self.put(format_args!("<style>.wall{{stroke:#333;stroke-width:4;stroke-linecap:square}}.item{{fill:#e8dcc8;stroke:#8a7350;stroke-width:1.5}}.found{{fill:#cfe8cf;stroke:#2e7d32;stroke-width:2.5}}.path{{fill:none;stroke:#c2185b;stroke-width:2.2;stroke-linecap:round}}.tick{{stroke:#c2185b;stroke-width:1.1;opacity:.5}}.label{{font-size:12px;fill:#4a3c22;text-anchor:middle}}.room{{font-size:17px;fill:#b9bcc2;text-anchor:middle}}.title{{font-size:16px;fill:#111}}.caption{{font-size:13px;fill:#555}}</style>"));
         self.put(format_args!(r##"<rect width="100%" height="100%" fill="#fff"/>"##));
     }
 
@@ -138,11 +138,11 @@ impl Canvas {
         self.text(sum / outline.corners.len().max(1) as f64 + aside, &outline.label, "label");
     }
 
-    /// Short lines half a second apart, with a tick for the heading, a ring at the start and an arrow at the end.
+    /// A line, with ticks for the heading two seconds apart, a ring at the start and an arrow at the end.
     fn path(&mut self, path: &[Pose]) {
-        for pair in path.windows(2) {
-            self.line(pair[0].position(), pair[1].position(), "path");
-        }
+        let points: Vec<String> =
+            path.iter().map(|pose| self.xy(pose.position())).map(|(x, y)| format!("{x},{y}")).collect();
+        self.put(format_args!(r#"<polyline class="path" points="{}"/>"#, points.join(" ")));
         for pose in path.iter().step_by(4) {
             self.line(pose.position(), pose.position() + pose.forward() * 0.18, "tick");
         }

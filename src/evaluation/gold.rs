@@ -5,9 +5,10 @@ use std::collections::BTreeSet;
 use serde::Deserialize;
 
 use super::brackets::{Bracket, brackets_of};
+use super::gold_tree::tree_of;
 use super::labelled::parse_tree;
 use super::token_gold::{TokenEntry, TokenGrounding, grounding_of_tokens, tag_of};
-use crate::record::{Direction, Grounding, Node, ObjectSlot, RoomSlot, Tag};
+use crate::record::{Chunk, Direction, Grounding, Node, ObjectSlot, RoomSlot, Tag};
 
 /// What a description is labelled as.
 #[derive(Clone, Debug, Default)]
@@ -16,6 +17,8 @@ pub struct Gold {
     pub id: String,
     /// The description.
     pub text: String,
+    /// Its chunk tree; empty when it has none.
+    pub chunks: Vec<Chunk>,
     /// Labelled brackets over its words; empty when it has no tree.
     pub brackets: BTreeSet<Bracket>,
     /// Whether it says what the description means.
@@ -105,6 +108,7 @@ fn from_own(entry: OwnEntry) -> Result<Gold, String> {
     let room = room.unwrap_or_default();
     Ok(Gold {
         brackets: brackets_of(&entry.text, &chunks),
+        chunks,
         id: entry.id,
         text: entry.text,
         has_grounding: true,
@@ -132,6 +136,7 @@ fn from_tokens(entry: TokenEntry) -> Gold {
     pairs.sort();
     Gold {
         brackets: entry.chunks.iter().filter_map(|c| Some((tag_of(&c.tag)?, c.start, c.end))).collect(),
+        chunks: tree_of(&entry.text, &entry.chunks),
         has_grounding: !entry.groundings.is_empty(),
         side,
         room: None,

@@ -1,7 +1,7 @@
 //! Counts with their Wilson 95 % intervals.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::record::Rounded;
 
@@ -56,6 +56,24 @@ impl Serialize for Rate {
         let written =
             Written { hit: self.hit, of: self.of, rate: self.share().into(), low: low.into(), high: high.into() };
         written.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Rate {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        struct Counts {
+            hit: usize,
+            of: usize,
+        }
+        Counts::deserialize(deserializer).map(|Counts { hit, of }| Self { hit, of })
+    }
+}
+
+impl std::ops::AddAssign for Rate {
+    fn add_assign(&mut self, other: Self) {
+        self.hit += other.hit;
+        self.of += other.of;
     }
 }
 

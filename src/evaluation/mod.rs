@@ -1,27 +1,45 @@
 //! Experiments, metrics and tables: what the system reads, understands and finds, against gold.
 
 pub mod behavior;
+mod blame;
 mod brackets;
+mod compare;
 mod furniture;
 mod furniture_gold;
 mod furniture_table;
 mod gold;
+mod gold_tree;
 mod interval;
 mod labelled;
+mod meanings;
+mod merge;
 mod model;
+mod paper;
+mod pipeline;
+mod report;
 mod score;
 mod table;
 mod token_gold;
 mod training_frame;
 
+mod what_if;
+
+pub use blame::{Blame, Blames, Stage, Wanted, blame, blame_text, meaning_phrase};
 pub use brackets::{Bracket, brackets_of};
+pub use compare::{Change, CompareError, Comparison, Measure, compare, comparison_text, mcnemar_exact};
 pub use furniture::{FurnitureScores, SeenGroup, kind_of, score_furniture};
 pub use furniture_gold::{GoldFrame, GoldItem, gold_frames};
 pub use furniture_table::furniture_tables;
 pub use gold::{Gold, GoldError, read_gold};
 pub use interval::Rate;
 pub use labelled::{LabelledChunk, LabelledTree, TreeError, parse_tree};
+pub use meanings::add_meanings;
+pub use merge::{merge_scores, only_with_records};
 pub use model::training_record;
+pub use paper::{Case, Cell, Column, Paper, PaperTable, Row, Source, paper, paper_csv, paper_text};
+pub use pipeline::{Pipeline, Understood};
+pub use report::write_report;
 pub use score::{Group, Scores, run_corpus, score};
 pub use table::text_tables;
 pub use training_frame::write_training_frame;
+pub use what_if::{Shift, WhatIf, Wording, what_if, what_if_text};

@@ -5,19 +5,15 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use rayon::prelude::*;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::brackets::brackets_of;
-use super::{Gold, Rate};
-use crate::behavior::Silent;
-use crate::grounding::{Grounder, Method};
-use crate::language::chunk_text;
-use crate::planning::Planner;
+use super::{Gold, Pipeline, Rate};
 use crate::record::{Chunk, Direction, Grounding, Outcome, Record, Rounded, Tag, Trial};
-use crate::trial::{Home, Settings, run, stream_of};
+use crate::trial::{Home, Settings};
 
 /// The scores of one group of descriptions. A stage that no record has reached is not counted.
-#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Group {
     /// Descriptions.
     pub descriptions: usize,
@@ -50,7 +46,7 @@ pub struct Group {
 }
 
 /// All scores of a corpus.
-#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Scores {
     /// All descriptions.
     pub all: Group,
@@ -207,30 +203,14 @@ fn side_of_name(name: Option<&str>) -> Option<Direction> {
 
 /// Runs a corpus end to end in `home`, from the text, and returns the records as JSON lines in the corpus's order.
 pub fn run_corpus(gold: &[Gold], home: &Home, settings: &Settings) -> Vec<String> {
-    let planner = Planner::new(home.map.clone());
-    let grounder = Grounder::new(Method::Composed, true);
-    gold.par_iter()
-        .map(|gold| {
-            let (tokens, chunks) = chunk_text(&gold.text);
-            let grounding = grounder.ground(&gold.text, &tokens, &chunks);
-            let plan = planner.plan(&grounding);
-            let trial = run(home, &plan, settings, stream_of(&gold.id), &mut Silent).trial;
-            let mut record = Record::from_text(&gold.id, &gold.text);
-            record.set("tokens", &tokens);
-            record.set("chunks", &chunks);
-            record.set("grounding", &grounding);
-            record.set("plan", &plan);
-            record.set("trial", &trial);
-            // A record of our own types always serializes.
-            serde_json::to_string(&record).unwrap_or_default()
-        })
-        .collect()
+    gold.par_iter().map_init(|| Pipeline::new(home, *settings), |pipeline, gold| pipeline.record(gold)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::evaluation::read_gold;
+    use crate::language::chunk_text;
 
     fn own() -> Vec<Gold> {
         read_gold(include_str!("../../corpus/templates.jsonl"), "templates.jsonl").expect("a sound corpus")

@@ -29,7 +29,7 @@ impl Outputs {
     }
 
     /// Draws the way of a trial.
-    pub(super) fn draw_plot(home: &Home, run: &Run, title: &str) -> String {
+    pub fn draw_plot(home: &Home, run: &Run, title: &str) -> String {
         let found = run.trial.target_id.as_deref();
         let furniture = home.scene.furniture.iter().map(|item| Outline {
             label: item.kind().noun.replace('_', " "),
@@ -49,7 +49,7 @@ impl Outputs {
     }
 
     /// What the robot's camera shows at the end of a trial, PNG.
-    pub(super) fn take_picture(home: &Home, run: &Run) -> Vec<u8> {
+    pub fn take_picture(home: &Home, run: &Run) -> Vec<u8> {
         let solids = SolidScene::new(&home.map, &home.scene);
         let (frame, _) = Kinect::default().capture(&solids, run.final_pose, &mut ChaCha8Rng::seed_from_u64(0));
         frame.color_png()

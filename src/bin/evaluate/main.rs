@@ -1,11 +1,16 @@
 //! Scores records against gold, and runs the experiments: one file a subcommand.
 
 mod behavior;
+mod blame;
+mod compare;
 mod frames;
+mod merge;
+mod paper;
 mod perception;
 mod run;
 mod score;
 mod train;
+mod what_if;
 
 use std::process::ExitCode;
 
@@ -31,6 +36,17 @@ enum What {
     Score(score::Arguments),
     /// Run a corpus end to end, from text to trial, and score it
     Run(run::Arguments),
+    /// Run the paper's three experiments: its figures beside ours
+    Paper(paper::Arguments),
+    /// Charge each failed trial to the stage whose gold mends it
+    Blame(blame::Arguments),
+    /// Compare two result files: fixed, broken, changed
+    Compare(compare::Arguments),
+    /// Find the smallest changes of words and furniture that change the outcome
+    #[command(name = "what-if")]
+    Counterfactual(what_if::Arguments),
+    /// Add up the scores of the parts of a run
+    Merge(merge::Arguments),
     /// Render frames of rooms furnished at random, with the truth, to train and test perception on
     Frames(frames::Arguments),
     /// Score detections against frames whose furniture is known
@@ -47,6 +63,11 @@ impl Program for Arguments {
         match &self.what {
             What::Score(arguments) => &arguments.common,
             What::Run(arguments) => &arguments.common,
+            What::Paper(arguments) => &arguments.common,
+            What::Blame(arguments) => &arguments.common,
+            What::Compare(arguments) => &arguments.common,
+            What::Counterfactual(arguments) => &arguments.common,
+            What::Merge(arguments) => &arguments.common,
             What::Frames(arguments) => &arguments.common,
             What::Perception(arguments) => &arguments.common,
             What::Train(arguments) => &arguments.common,
@@ -59,6 +80,8 @@ impl Program for Arguments {
     fn reads_standard_input(&self) -> bool {
         match &self.what {
             What::Score(arguments) => arguments.common.files.is_empty(),
+            What::Merge(arguments) => arguments.common.files.is_empty(),
+            What::Counterfactual(arguments) => arguments.reads_standard_input(),
             What::Perception(arguments) => arguments.common.files.is_empty(),
             _ => false,
         }
@@ -67,6 +90,11 @@ impl Program for Arguments {
         match self.what {
             What::Score(arguments) => arguments.run(),
             What::Run(arguments) => arguments.run(),
+            What::Paper(arguments) => arguments.run(),
+            What::Blame(arguments) => arguments.run(),
+            What::Compare(arguments) => arguments.run(),
+            What::Counterfactual(arguments) => arguments.run(),
+            What::Merge(arguments) => arguments.run(),
             What::Frames(arguments) => arguments.run(),
             What::Perception(arguments) => arguments.run(),
             What::Train(arguments) => arguments.run(),

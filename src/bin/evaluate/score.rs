@@ -4,21 +4,27 @@ use std::path::PathBuf;
 
 use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Table};
-use spatial_fetch::evaluation::score;
+use spatial_fetch::evaluation::{only_with_records, score};
 
 #[derive(Args)]
 pub struct Arguments {
     /// Gold descriptions [default: the shipped templates]
     #[arg(long, value_name = "FILE")]
     gold: Option<PathBuf>,
+    /// These are a part of a run: leave out descriptions without a record, and add the parts up with `merge`
+    #[arg(long)]
+    part: bool,
     #[command(flatten)]
     pub common: Common,
 }
 
 impl Arguments {
     pub fn run(self) -> Result<Exit, Failure> {
-        let gold = cli::load_gold(self.gold.as_deref())?;
+        let mut gold = cli::load_gold(self.gold.as_deref())?;
         let lines = cli::read_lines(&self.common.files)?;
+        if self.part {
+            gold = only_with_records(gold, &lines);
+        }
         let scores = score(&gold, &lines).map_err(Failure::Failed)?;
         let title = format!("{} descriptions, {} records", gold.len(), lines.len());
         cli::write_scores(&self.common, &Table { title, scores })

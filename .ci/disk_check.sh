@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# A disk that fills up while records are written: it is said, and nothing half-written stays. Needs root, for a tiny tmpfs.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+disk=$(mktemp -d)
+mount -t tmpfs -o size=64k tmpfs "$disk"
+trap 'umount "$disk"; rmdir "$disk"' EXIT
+
+chunked=$(yes 'the mug is in the bedroom on the table by the chairs' | head -2000 | chunk)
+full() {
+    local code=0
+    "$@" 2> /tmp/said.$$ || code=$?
+    if [ "$code" != 1 ] || ! grep -q 'the disk is full' /tmp/said.$$ || [ -n "$(ls -A "$disk")" ]; then
+        echo "$*: exit $code, said: $(cat /tmp/said.$$), left: $(ls -A "$disk")" >&2
+        exit 1
+    fi
+    rm -f /tmp/said.$$
+}
+yes 'the mug is in the bedroom on the table by the chairs' | head -2000 | full chunk -o "$disk/out.jsonl"
+full ground -o "$disk/out.jsonl" <<< "$chunked"
+ground <<< "$chunked" | full plan -o "$disk/out.jsonl"
+head -200 <<< "$chunked" | ground | plan | full drive -o "$disk/out.jsonl"
+echo "a full disk is said, and nothing half-written stays"

@@ -1,0 +1,31 @@
+#!/usr/bin/env python3
+"""The recipe of docs/scaling.md with PySpark: the bytes of one process, and a failure that is not swallowed.
+
+Needs pyspark and Java; the executables have to be on the PATH. Usage: spark_check.py < texts.jsonl
+"""
+import subprocess
+import sys
+
+from pyspark import SparkContext
+
+STAGES = "set -o pipefail; chunk -j 1 | ground -j 1 --brief | plan -j 1 | drive -j 1"
+COMMAND = f"bash -c '{STAGES}'"
+
+
+def main():
+    texts = sys.stdin.read().splitlines()
+    one = subprocess.run(["bash", "-c", STAGES], input="\n".join(texts) + "\n", capture_output=True, text=True, check=True)
+    context = SparkContext(master="local[2]", appName="spatial-fetch")
+    context.setLogLevel("OFF")
+    many = context.parallelize(texts, 5).pipe(COMMAND, checkCode=True).collect()
+    assert many == one.stdout.splitlines(), "Spark's records differ from those of one process"
+    try:
+        context.parallelize(texts + ['{"id":"bad","text":7}'], 5).pipe(COMMAND, checkCode=True).collect()
+    except Exception:
+        print(f"PySpark: {len(many)} records, the same bytes as one process; a failure is passed on")
+    else:
+        sys.exit("a failed task went unnoticed")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,45 @@
+//! `evaluate compare`: two result files, record by record.
+
+use clap::Args;
+use spatial_fetch::cli::{self, Common, Exit, Failure};
+use spatial_fetch::evaluation::{Comparison, Measure, compare, comparison_text};
+
+#[derive(Args)]
+#[command(override_usage = "evaluate compare [OPTIONS] A B")]
+pub struct Arguments {
+    /// What counts as a success
+    #[arg(long, value_enum, value_name = "WHAT", default_value_t)]
+    measure: Measure,
+    /// End with 1 when a record that succeeded in A fails in B or is missing
+    #[arg(long)]
+    fail_on_regression: bool,
+    /// Count reasons, scores and measurements as changes too
+    #[arg(long)]
+    every_field: bool,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+impl Arguments {
+    pub fn run(self) -> Result<Exit, Failure> {
+        let [first, second] = self.common.files.as_slice() else {
+            return Err(Failure::Usage("compare takes two result files: evaluate compare A B".to_string()));
+        };
+        let read = |path| cli::read_lines(std::slice::from_ref(path));
+        let (a, b) = (read(first)?, read(second)?);
+        let (a_name, b_name) = (first.display().to_string(), second.display().to_string());
+        let comparison = compare((&a_name, &a), (&b_name, &b), self.measure, self.every_field)
+            .map_err(|error| Failure::Failed(error.to_string()))?;
+        self.report(&comparison)
+    }
+
+    fn report(&self, comparison: &Comparison) -> Result<Exit, Failure> {
+        cli::write_report(&self.common, comparison, comparison_text)?;
+        if self.fail_on_regression && comparison.regressed() {
+            let (broken, missing) = (comparison.broken.len(), comparison.missing.len());
+            return Err(Failure::Failed(format!("{broken} records broken, {missing} missing")));
+        }
+        let lossless = comparison.missing.is_empty() && comparison.extra.is_empty() && comparison.doubled.is_empty();
+        Ok(if lossless { Exit::Done } else { Exit::Lost })
+    }
+}

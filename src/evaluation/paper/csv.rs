@@ -1,0 +1,29 @@
+//! The tables as comma-separated values, one figure a line.
+
+use super::{Paper, Source};
+
+/// A heading and a line for each figure of each table.
+pub fn paper_csv(paper: &Paper) -> String {
+    let mut lines = vec!["table,source,row,measure,column,percent,hit,of,low,high,spl".to_string()];
+    for table in &paper.tables {
+        let name = table.title.split(':').next().unwrap_or_default();
+        for row in &table.rows {
+            let source = if row.source == Source::Paper { "paper" } else { "ours" };
+            for (column, cell) in &row.cells {
+                let count = cell.count.map_or(",,,".to_string(), |rate| {
+                    let (low, high) = rate.interval();
+                    format!("{},{},{:.4},{:.4}", rate.hit, rate.of, low, high)
+                });
+                let spl = row.spl.map_or(String::new(), |spl| spl.value().to_string());
+                let head = [name, source, &row.name, &row.measure, column.heading()].map(field).join(",");
+                lines.push(format!("{head},{:.2},{count},{spl}", cell.percent.0));
+            }
+        }
+    }
+    lines.join("\n")
+}
+
+/// Quoted where it has to be (RFC 4180).
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_string() }
+}

@@ -1,0 +1,39 @@
+use super::*;
+use crate::evaluation::{Gold, read_gold};
+use crate::trial::{Home, Settings};
+use crate::world::{RoomMap, Scene};
+
+fn few() -> Vec<Gold> {
+    let gold = read_gold(include_str!("../../../corpus/templates.jsonl"), "templates.jsonl").expect("a sound corpus");
+    gold.into_iter().step_by(18).collect()
+}
+
+fn homes() -> [Home; 2] {
+    [Scene::apartment(), Scene::apartment_modified()].map(|scene| Home { map: RoomMap::apartment(), scene })
+}
+
+#[test]
+fn the_papers_figures_stand_beside_ours_in_all_three_tables() {
+    let gold = few();
+    let (result, cases) = paper("few", &gold, &homes(), Settings::default(), 1);
+    assert_eq!((result.tables.len(), cases.len()), (3, 2 * result.unique));
+    for table in &result.tables {
+        assert!(table.rows.iter().any(|row| row.source == Source::Paper));
+        assert!(table.rows.iter().any(|row| row.source == Source::Ours && row.cells.contains_key(&Column::All)));
+    }
+    let text = paper_text(&result);
+    assert!(text.contains("87.9 % 131/149 (81.7–92.2)") && text.contains("90.1 %"), "{text}");
+    assert!(text.contains("previous system: first pair only: right first"), "{text}");
+}
+
+#[test]
+fn every_figure_is_a_line_of_the_csv() {
+    let gold = few();
+    let (result, _) = paper("few", &gold, &homes(), Settings::default(), 1);
+    let figures: usize = result.tables.iter().flat_map(|table| &table.rows).map(|row| row.cells.len()).sum();
+    let csv = paper_csv(&result);
+    assert_eq!(csv.lines().count(), figures + 1);
+    assert!(csv.contains("\nTable II,paper,robot,,all,81.25,26,32,"), "{csv}");
+    let width = |line: &str| line.replace("\"simulation, gold instructions\"", "").matches(',').count();
+    assert!(csv.lines().all(|line| width(line) == 10 || line.contains('"')), "{csv}");
+}

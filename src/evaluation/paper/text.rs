@@ -1,0 +1,61 @@
+//! The tables for the terminal.
+
+use super::{Cell, Column, Paper, PaperTable, Row, Source};
+
+/// Characters of the first column.
+const NAME_WIDTH: usize = 44;
+
+/// All three tables, each figure with its count, and Wilson intervals in the column of all.
+pub fn paper_text(paper: &Paper) -> String {
+    let mut lines = vec![format!(
+        "{}: {} descriptions, {} unique instructions × {} seeds, perception {}",
+        paper.corpus, paper.descriptions, paper.unique, paper.seeds, paper.perception
+    )];
+    paper.tables.iter().for_each(|table| lines.extend(table_lines(table)));
+    lines.push(String::new());
+    lines.extend(paper.notes.iter().map(|note| format!("- {note}")));
+    lines.join("\n")
+}
+
+fn table_lines(table: &PaperTable) -> Vec<String> {
+    let headings = Column::ALL.map(|column| match column {
+        Column::All => format!("{:>33}", "all, 95 % interval"),
+        other => format!("{:>18}", other.heading()),
+    });
+    let mut lines = vec![String::new(), table.title.clone()];
+    lines.push(format!("{:NAME_WIDTH$}{}{:>7}", "", headings.concat(), "SPL").trim_end().to_string());
+    lines.extend(table.rows.iter().map(row_line));
+    lines
+}
+
+fn row_line(row: &Row) -> String {
+    let name = match (row.source, row.measure.as_str()) {
+        (Source::Paper, _) => format!("paper: {}", row.name),
+        (Source::Ours, measure) => format!("{}: {measure}", row.name),
+    };
+    let cells = Column::ALL.map(|column| match (column, row.cells.get(&column)) {
+        (Column::All, cell) => format!("{:>33}", cell.map(whole).unwrap_or_default()),
+        (_, cell) => format!("{:>18}", cell.map(short).unwrap_or_default()),
+    });
+    let spl = row.spl.map_or(String::new(), |spl| format!("{:>7.3}", spl.0));
+    format!("{name:NAME_WIDTH$}{}{spl}", cells.concat()).trim_end().to_string()
+}
+
+/// Percentage and count.
+pub(in crate::evaluation) fn short(cell: &Cell) -> String {
+    match cell.count {
+        Some(rate) => format!("{:.1} % {}/{}", cell.percent.0, rate.hit, rate.of),
+        None => format!("{:.1} %", cell.percent.0),
+    }
+}
+
+/// Percentage, count and interval.
+pub(in crate::evaluation) fn whole(cell: &Cell) -> String {
+    match cell.count {
+        Some(rate) => {
+            let (low, high) = rate.interval();
+            format!("{} ({:.1}–{:.1})", short(cell), 100.0 * low, 100.0 * high)
+        }
+        None => short(cell),
+    }
+}

@@ -1,0 +1,66 @@
+//! The frame of the page.
+
+/// Text as it may stand between tags and in attributes.
+pub(super) fn escaped(text: &str) -> String {
+    let text: String = text.chars().filter(|c| !c.is_control() || *c == '\n').collect();
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// Everything before the tables.
+pub(super) fn head(title: &str) -> String {
+    let title = escaped(title);
+    let style = include_str!("report.css");
+    format!(
+        r##"<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:">
+<link rel="icon" href="data:,">
+<title>{title}</title>
+<style>
+{style}</style>
+</head>
+<body>
+<a class="skip" href="#trials">Skip to the trials</a>
+<main>
+<h1>{title}</h1>
+"##
+    )
+}
+
+/// The heading of the trials, with the choices that narrow them.
+pub(super) fn filter(count: usize) -> String {
+    let choices = [
+        (
+            "result",
+            "Result",
+            &[("failed", "failed"), ("wrong-first", "not right first"), ("good", "right first and found")][..],
+        ),
+        ("home", "Furniture", &[("original", "as it was"), ("moved", "moved")]),
+        ("form", "Form", &[("how", "how"), ("where", "where")]),
+        ("names", "Furniture named", &[("none", "none"), ("table-only", "table only"), ("other", "other as well")]),
+    ];
+    let selects: String = choices
+        .iter()
+        .map(|(name, label, options)| {
+            let options: String =
+                options.iter().map(|(value, text)| format!(r#"<option value="{value}">{text}</option>"#)).collect();
+            format!(r#"<label>{label}<select name="{name}"><option value="">all</option>{options}</select></label>"#)
+        })
+        .collect();
+    format!(
+        r#"<h2 id="trials">Trials</h2>
+<p>Each is read from its text and driven with the first seed; failures come first. Open one to see its way, what the camera showed at the end, and how its words were read.</p>
+<form id="filter" aria-label="Which trials to show">
+<label>Words<input type="search" name="words" autocomplete="off"></label>{selects}
+<p id="shown" role="status">{count} trials</p>
+</form>
+"#
+    )
+}
+
+/// Everything after the trials.
+pub(super) const FOOT: &str =
+    concat!("</main>\n<script>\n", include_str!("report.js"), "</script>\n</body>\n</html>\n");

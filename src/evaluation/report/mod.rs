@@ -1,0 +1,69 @@
+//! The experiments as one HTML file: tables, and every trial with its way, its last picture and its tree.
+//!
+//! The file needs nothing beside it: style, script and pictures stand in it,
+//! and a content policy forbids it to fetch anything.
+
+mod html;
+mod tables;
+mod trial;
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use super::{Case, Paper};
+use crate::files::{FileError, write_file};
+use crate::trial::Home;
+
+/// Writes `index.html` into a folder and returns its path.
+pub fn write_report(
+    folder: &Path,
+    paper: &Paper,
+    cases: &[Case],
+    homes: &[Home; 2],
+    force: bool,
+) -> Result<PathBuf, FileError> {
+    std::fs::create_dir_all(folder).map_err(|error| FileError::System(folder.display().to_string(), error))?;
+    let path = folder.join("index.html");
+    write_file(&path, page(paper, cases, homes).as_bytes(), force)?;
+    Ok(path)
+}
+
+/// The page; the same experiments give the same bytes.
+fn page(paper: &Paper, cases: &[Case], homes: &[Home; 2]) -> String {
+    let mut order: Vec<&Case> = cases.iter().collect();
+    // Failures first; a stable sort keeps the corpus's order within.
+    order.sort_by_key(|case| trial::rank(case));
+    let trials: Vec<String> = order.par_iter().map(|case| trial::section(case, &homes[case.arrangement])).collect();
+    let mut page = html::head(&format!("{}: {} trials", paper.corpus, cases.len()));
+    page.push_str(&tables::section(paper));
+    page.push_str(&html::filter(cases.len()));
+    page.push_str(&trials.concat());
+    page.push_str(html::FOOT);
+    page
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evaluation::{paper, read_gold};
+    use crate::trial::Settings;
+    use crate::world::{RoomMap, Scene};
+
+    #[test]
+    fn the_page_is_whole_fetches_nothing_and_cannot_be_broken_by_words() {
+        let text = include_str!("../../../corpus/templates.jsonl").lines().next().unwrap_or_default();
+        let gold = read_gold(&text.replace("bear right", "bear<right"), "t.jsonl").expect("gold");
+        let homes =
+            [Scene::apartment(), Scene::apartment_modified()].map(|scene| Home { map: RoomMap::apartment(), scene });
+        let (result, cases) = paper("<corpus>", &gold, &homes, Settings::default(), 1);
+        let page = page(&result, &cases, &homes);
+        assert_eq!(page.matches("<details class=\"trial\"").count(), 2);
+        assert!(page.contains("bear&lt;right") && !page.contains("bear<right") && !page.contains("<corpus>"));
+        assert!(
+            !page.contains("http://")
+                || page.matches("http").count() == page.matches("http://www.w3.org/2000/svg").count()
+        );
+        assert!(page.contains("default-src 'none'") && page.ends_with("</html>\n"));
+    }
+}
