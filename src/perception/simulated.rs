@@ -42,19 +42,26 @@ pub struct CameraEyes {
     kinect: SimulatedKinect,
     detector: Detector,
     map: RoomMap,
+    last: Option<RgbdFrame>,
 }
 
 impl CameraEyes {
     /// Eyes behind a Kinect, of a robot that knows the map.
     pub fn new(kinect: SimulatedKinect, map: RoomMap) -> Self {
-        Self { kinect, detector: Detector::default(), map }
+        Self { kinect, detector: Detector::default(), map, last: None }
     }
 }
 
 impl Eyes for CameraEyes {
     fn look(&mut self, believed: Pose) -> View {
         let (frame, _) = self.kinect.frame(believed);
-        self.detector.detect(&frame, Some(&self.map))
+        let view = self.detector.detect(&frame, Some(&self.map));
+        self.last = Some(frame);
+        view
+    }
+
+    fn frame(&self) -> Option<&RgbdFrame> {
+        self.last.as_ref()
     }
 }
 
