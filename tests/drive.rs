@@ -75,3 +75,31 @@ fn the_modified_home_is_driven_as_well() {
     let ran = run("drive", &["--scene", scene], planned("find the monitor in the bedroom")).expect_code(0);
     assert_eq!(ran.records()[0]["trial"]["outcome"], "found");
 }
+
+#[test]
+fn a_shipped_home_is_driven_by_its_name_and_a_misspelt_one_lists_them() {
+    let grounded = pipe(&["chunk", "ground"], "the laptop is in the living room on the desk\n");
+    let plan = run("plan", &["--map", "studio"], grounded).expect_code(0).out;
+    let trial = run("drive", &["--world", "studio"], plan).expect_code(0).records().remove(0)["trial"].take();
+    assert_eq!((&trial["outcome"], &trial["target_id"]), (&"found".into(), &"desk-1".into()));
+    let ran = run("drive", &["--world", "stduio"], "").expect_code(1);
+    assert!(ran.err.contains("did you mean `studio`? Shipped are apartment,"), "{}", ran.err);
+}
+
+#[test]
+fn a_world_that_cannot_be_is_refused_by_the_item_with_what_mends_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("home.scene.json");
+    let scene = include_str!("../fixtures/apartment.scene.json");
+    for (right, wrong, message) in [
+        ("\"category\": \"couch\"", "\"category\": \"coach\"", "`coach`; did you mean `couch`?"),
+        ("\"x\": 4.5, \"y\": 4,", "\"x\": 4.5, \"y\": 3,", "stands in the place of `couch-1`; move one of the two"),
+        ("\"on\": \"round-table-1\"", "\"on\": \"round-tabel-1\"", "did you mean `round-table-1`?"),
+        ("\"version\": 1", "\"version\": 2", "version 2 of the format; this program reads version 1"),
+        ("\"map\": \"apartment\"", "\"map\": \"castle\"", "no room map `castle`: looked for"),
+    ] {
+        std::fs::write(&path, scene.replacen(right, wrong, 1)).expect("written");
+        let ran = run("drive", &["--world", path.to_str().expect("UTF-8")], "").expect_code(1);
+        assert!(ran.err.contains("home.scene.json") && ran.err.contains(message), "{}", ran.err);
+    }
+}

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{Common, Exit, Failure, Format, Inputs, open_output, read_file};
+use crate::evaluation::robustness::{Robustness, robustness_tables};
 use crate::evaluation::{Gold, Scores, read_gold, text_tables};
 
 /// Scores with the line that stands over them.
@@ -48,10 +49,27 @@ pub fn write_scores(common: &Common, table: &Table) -> Result<Exit, Failure> {
         Format::Text => text_tables(&table.title, &table.scores),
         Format::Json => serde_json::to_string(&table.scores).map_err(|e| Failure::Failed(e.to_string()))?,
     };
-    let sink = open_output(common)?;
-    sink.write(format!("{text}\n").as_bytes())?;
-    sink.finish()?;
+    write_text(common, &text)?;
     let lossless =
         table.scores.missing.is_empty() && table.scores.doubled.is_empty() && table.scores.unknown.is_empty();
     Ok(if lossless { Exit::Done } else { Exit::Lost })
+}
+
+/// Writes what `evaluate robustness` added up; a world that could not be made makes the run a lossy one.
+pub fn write_robustness(common: &Common, robustness: &Robustness) -> Result<Exit, Failure> {
+    let text = match common.format {
+        Format::Text => robustness_tables(robustness),
+        Format::Json => serde_json::to_string(robustness).map_err(|e| Failure::Failed(e.to_string()))?,
+    };
+    write_text(common, &text)?;
+    let tallies = [&robustness.kept, &robustness.broken, &robustness.gold, &robustness.gold_from_text];
+    let lossless = tallies.into_iter().flatten().all(|tally| tally.not_made.is_empty());
+    Ok(if lossless { Exit::Done } else { Exit::Lost })
+}
+
+/// Writes a text and ends its last line.
+pub fn write_text(common: &Common, text: &str) -> Result<(), Failure> {
+    let sink = open_output(common)?;
+    sink.write(format!("{text}\n").as_bytes())?;
+    sink.finish()
 }

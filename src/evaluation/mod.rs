@@ -5,6 +5,7 @@ mod gold;
 mod interval;
 mod labelled;
 mod model;
+pub mod robustness;
 mod score;
 mod table;
 

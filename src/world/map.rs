@@ -104,16 +104,20 @@ impl RoomMap {
         })
     }
 
-    /// Reads and checks a room map.
+    /// Reads and checks a room map file.
     pub fn load(path: &Path) -> Result<Self, WorldError> {
         Self::from_json(&read(path)?, &path.display().to_string())
     }
 
     /// Parses and checks a room map; `file` is named in errors.
     pub fn from_json(text: &str, file: &str) -> Result<Self, WorldError> {
-        let map: Self = parse(text, file)?;
-        super::check::check_map(&map, file)?;
-        Ok(map)
+        parse::<Self>(text, file)?.checked(file)
+    }
+
+    /// This room map, when it can be; `file` is named in errors.
+    pub(super) fn checked(self, file: &str) -> Result<Self, WorldError> {
+        super::check::check_map(&self, file)?;
+        Ok(self)
     }
 
     /// The room of that very name.

@@ -21,12 +21,12 @@ use spatial_fetch::trial::{Driver, Home, Perception, Settings};
     after_help = "Example:\n  echo 'my mug is on the table by the chairs in the bedroom' | chunk | ground | plan | drive --format text"
 )]
 struct Arguments {
-    /// Room map [default: the apartment]
-    #[arg(long, value_name = "FILE", requires = "scene")]
+    /// The simulated home: a scene file, or a shipped home by its name (studio, flat, …) [default: apartment]
+    #[arg(long, value_name = "WORLD", visible_alias = "scene")]
+    world: Option<PathBuf>,
+    /// Room map, where the scene file does not lead to it
+    #[arg(long, value_name = "MAP", requires = "world")]
     map: Option<PathBuf>,
-    /// Furniture and objects of the simulated home [default: the apartment as first furnished]
-    #[arg(long, value_name = "FILE")]
-    scene: Option<PathBuf>,
     /// What the robot's eyes report
     #[arg(long, value_enum, default_value = "truth")]
     perception: Perception,
@@ -48,7 +48,7 @@ impl Program for Arguments {
     }
     fn run(self) -> Result<Exit, Failure> {
         let home =
-            Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
+            Home::load(self.map.as_deref(), self.world.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
         let settings =
             Settings { options: self.executive.options(), perception: self.perception, seed: self.common.seed };
         let outputs = self.outputs.outputs(self.common.force);

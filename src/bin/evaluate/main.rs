@@ -1,6 +1,8 @@
 //! Scores records against gold, and runs the experiments: one file a subcommand.
 
+mod robustness;
 mod run;
+mod scene;
 mod score;
 
 use std::process::ExitCode;
@@ -27,6 +29,10 @@ enum What {
     Score(score::Arguments),
     /// Run a corpus end to end, from text to trial, and score it
     Run(run::Arguments),
+    /// Moved furniture, other homes, and homes made for gold groundings
+    Robustness(robustness::Arguments),
+    /// Make one scene: furniture placed anew, or a whole new home
+    Scene(scene::Arguments),
 }
 
 impl Program for Arguments {
@@ -35,6 +41,8 @@ impl Program for Arguments {
         match &self.what {
             What::Score(arguments) => &arguments.common,
             What::Run(arguments) => &arguments.common,
+            What::Robustness(arguments) => &arguments.common,
+            What::Scene(arguments) => &arguments.common,
         }
     }
     fn schema() -> schemars::Schema {
@@ -47,6 +55,8 @@ impl Program for Arguments {
         match self.what {
             What::Score(arguments) => arguments.run(),
             What::Run(arguments) => arguments.run(),
+            What::Robustness(arguments) => arguments.run(),
+            What::Scene(arguments) => arguments.run(),
         }
     }
 }

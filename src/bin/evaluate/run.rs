@@ -13,12 +13,12 @@ pub struct Arguments {
     /// Gold descriptions [default: the shipped templates]
     #[arg(long, value_name = "FILE")]
     gold: Option<PathBuf>,
-    /// Room map [default: the apartment]
-    #[arg(long, value_name = "FILE", requires = "scene")]
+    /// The simulated home: a scene file, or a shipped home by its name (studio, flat, …) [default: apartment]
+    #[arg(long, value_name = "WORLD", visible_alias = "scene")]
+    world: Option<PathBuf>,
+    /// Room map, where the scene file does not lead to it
+    #[arg(long, value_name = "MAP", requires = "world")]
     map: Option<PathBuf>,
-    /// Furniture and objects of the simulated home
-    #[arg(long, value_name = "FILE")]
-    scene: Option<PathBuf>,
     /// Room and object only, nearest table first
     #[arg(long)]
     blind: bool,
@@ -30,7 +30,7 @@ impl Arguments {
     pub fn run(self) -> Result<Exit, Failure> {
         let gold = cli::load_gold(self.gold.as_deref())?;
         let home =
-            Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
+            Home::load(self.map.as_deref(), self.world.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
         let options = Options { blind: self.blind, ..Options::default() };
         let lines = run_corpus(&gold, &home, &Settings { options, seed: self.common.seed, ..Settings::default() });
         let scores = score(&gold, &lines).map_err(Failure::Failed)?;
