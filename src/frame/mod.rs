@@ -3,6 +3,12 @@
 //! The type that cameras, recordings and perception share; nothing here knows
 //! where a frame comes from or what is in it.
 
+mod decode;
+mod png;
+
+pub use decode::{Picture, decode_color, decode_depth};
+pub use png::{grey_png, rgb_png};
+
 /// Focal lengths and principal point of a pinhole camera, pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intrinsics {

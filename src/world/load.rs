@@ -38,6 +38,9 @@ pub fn load_map(which: &Path) -> Result<RoomMap, WorldError> {
     if let Some(home) = shipped(which)? {
         return home.map();
     }
+    if super::map_server::is_map_file(which) {
+        return RoomMap::load(which);
+    }
     let (text, file) = (read(which)?, which.display().to_string());
     let key: MapKey = parse(&text, &file)?;
     if key.map.is_some() { map_of_scene(which, &text, &file) } else { RoomMap::from_json(&text, &file) }

@@ -8,13 +8,16 @@ pub mod arrange;
 pub mod camera;
 mod check;
 mod error;
+pub mod families;
 mod furniture;
 mod load;
 mod map;
+mod map_server;
 pub mod mesh;
 mod scene;
 mod shipped;
 pub mod solid;
+pub mod training;
 
 pub use check::check;
 pub use error::WorldError;

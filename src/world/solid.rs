@@ -90,6 +90,11 @@ impl Solid {
         self.bottom
     }
 
+    /// The triangles of a mesh, where they stand; nothing for a prism.
+    pub fn triangles(&self) -> Option<Vec<[Point; 3]>> {
+        self.mesh.as_ref().map(PlacedMesh::triangles)
+    }
+
     /// Where `ray` enters, when it does ahead of its origin.
     pub fn hit(&self, ray: &Ray) -> Option<Hit> {
         let (mut enter, mut leave, mut normal) = self.height_span(ray)?;
@@ -152,6 +157,19 @@ impl Solid {
 }
 
 impl PlacedMesh {
+    fn triangles(&self) -> Vec<[Point; 3]> {
+        let place = |corner: &Point| {
+            let local = corner.component_mul(&self.stretch);
+            let at = self.pose.to_world(vec2(local.x, local.y));
+            Point::new(at.x, at.y, local.z)
+        };
+        self.mesh
+            .triangles()
+            .iter()
+            .map(|corners| [place(&corners[0]), place(&corners[1]), place(&corners[2])])
+            .collect()
+    }
+
     fn hit(&self, ray: &Ray) -> Option<Hit> {
         let (sin, cos) = self.pose.heading.sin_cos();
         let at = self.pose.to_local(ray.origin);

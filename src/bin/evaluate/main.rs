@@ -1,9 +1,12 @@
 //! Scores records against gold, and runs the experiments: one file a subcommand.
 
+mod frames;
+mod perception;
 mod robustness;
 mod run;
 mod scene;
 mod score;
+mod train;
 
 use std::process::ExitCode;
 
@@ -33,6 +36,12 @@ enum What {
     Robustness(robustness::Arguments),
     /// Make one scene: furniture placed anew, or a whole new home
     Scene(scene::Arguments),
+    /// Render frames of rooms furnished at random, with the truth, to train and test perception on
+    Frames(frames::Arguments),
+    /// Score detections against frames whose furniture is known
+    Perception(perception::Arguments),
+    /// Learn the furniture detector from such rooms
+    Train(train::Arguments),
 }
 
 impl Program for Arguments {
@@ -43,13 +52,20 @@ impl Program for Arguments {
             What::Run(arguments) => &arguments.common,
             What::Robustness(arguments) => &arguments.common,
             What::Scene(arguments) => &arguments.common,
+            What::Frames(arguments) => &arguments.common,
+            What::Perception(arguments) => &arguments.common,
+            What::Train(arguments) => &arguments.common,
         }
     }
     fn schema() -> schemars::Schema {
         schemars::schema_for!(Scores)
     }
     fn reads_standard_input(&self) -> bool {
-        matches!(&self.what, What::Score(arguments) if arguments.common.files.is_empty())
+        match &self.what {
+            What::Score(arguments) => arguments.common.files.is_empty(),
+            What::Perception(arguments) => arguments.common.files.is_empty(),
+            _ => false,
+        }
     }
     fn run(self) -> Result<Exit, Failure> {
         match self.what {
@@ -57,6 +73,9 @@ impl Program for Arguments {
             What::Run(arguments) => arguments.run(),
             What::Robustness(arguments) => arguments.run(),
             What::Scene(arguments) => arguments.run(),
+            What::Frames(arguments) => arguments.run(),
+            What::Perception(arguments) => arguments.run(),
+            What::Train(arguments) => arguments.run(),
         }
     }
 }

@@ -68,7 +68,15 @@ pub fn home_of_rooms(name: &str, plans: &[RoomPlan], dice: &mut Dice) -> RoomMap
     let synonyms = vec!["hall".to_string(), "corridor".to_string()];
     rooms.insert(0, Room { name: "hallway".to_string(), synonyms, passage: true, outline: hallway });
     let start = Pose::new(0.8, 0.0, PI);
-    RoomMap { version: FORMAT_VERSION, name: name.to_string(), wall_height: 2.5, start, rooms, doors }
+    RoomMap {
+        version: FORMAT_VERSION,
+        name: name.to_string(),
+        wall_height: 2.5,
+        start,
+        rooms,
+        doors,
+        inner_walls: Vec::new(),
+    }
 }
 
 fn tenths(value: f64) -> f64 {

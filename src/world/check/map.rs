@@ -17,6 +17,8 @@ pub(in crate::world) fn check_map(map: &RoomMap, file: &str) -> Result<(), World
         check_outline(&checker, &format!("room `{}`", room.name), &room.outline)?;
     }
     check_overlaps(&checker, map)?;
+    let finite = map.inner_walls.iter().flatten().flatten().all(|v| v.is_finite());
+    checker.require(finite, "inner_walls", || "an end is not a number".to_string())?;
     for door in &map.doors {
         check_door(&checker, map, door)?;
     }
