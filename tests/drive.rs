@@ -76,7 +76,7 @@ fn a_plan_for_another_map_is_refused() {
 #[test]
 fn the_modified_home_is_driven_as_well() {
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/apartment-modified.scene.json");
-    let ran = run("drive", &["--scene", scene], planned("find the monitor in the bedroom")).expect_code(0);
+    let ran = run("drive", &["--world", scene], planned("find the monitor in the bedroom")).expect_code(0);
     assert_eq!(ran.records()[0]["trial"]["outcome"], "found");
 }
 
@@ -97,9 +97,37 @@ fn a_scene_says_how_imperfect_the_robot_is_there() {
     std::fs::write(&path, &exact).expect("written");
     let plan = planned("find the laptop in the living room");
     let scene = path.to_str().expect("UTF-8");
-    let slippery = run("drive", &["--scene", scene], &plan).expect_code(0).out;
+    let slippery = run("drive", &["--world", scene], &plan).expect_code(0).out;
     assert_ne!(slippery, run("drive", &[], &plan).out);
     std::fs::write(&path, exact.replace("slip", "glide")).expect("written");
-    let ran = run("drive", &["--scene", scene], &plan).expect_code(1);
+    let ran = run("drive", &["--world", scene], &plan).expect_code(1);
     assert!(ran.err.contains("glide"), "{}", ran.err);
+}
+
+#[test]
+fn a_shipped_home_is_driven_by_its_name_and_a_misspelt_one_lists_them() {
+    let grounded = pipe(&["chunk", "ground"], "the laptop is in the living room on the desk\n");
+    let plan = run("plan", &["--map", "studio"], grounded).expect_code(0).out;
+    let trial = run("drive", &["--world", "studio"], plan).expect_code(0).records().remove(0)["trial"].take();
+    assert_eq!((&trial["outcome"], &trial["target_id"]), (&"found".into(), &"desk-1".into()));
+    let ran = run("drive", &["--world", "stduio"], "").expect_code(1);
+    assert!(ran.err.contains("did you mean `studio`? Shipped are apartment,"), "{}", ran.err);
+}
+
+#[test]
+fn a_world_that_cannot_be_is_refused_by_the_item_with_what_mends_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("home.scene.json");
+    let scene = include_str!("../fixtures/apartment.scene.json");
+    for (right, wrong, message) in [
+        ("\"category\": \"couch\"", "\"category\": \"coach\"", "`coach`; did you mean `couch`?"),
+        ("\"x\": 4.5, \"y\": 4,", "\"x\": 4.5, \"y\": 3,", "stands in the place of `couch-1`; move one of the two"),
+        ("\"on\": \"round-table-1\"", "\"on\": \"round-tabel-1\"", "did you mean `round-table-1`?"),
+        ("\"version\": 1", "\"version\": 2", "version 2 of the format; this program reads version 1"),
+        ("\"map\": \"apartment\"", "\"map\": \"castle\"", "no room map `castle`: looked for"),
+    ] {
+        std::fs::write(&path, scene.replacen(right, wrong, 1)).expect("written");
+        let ran = run("drive", &["--world", path.to_str().expect("UTF-8")], "").expect_code(1);
+        assert!(ran.err.contains("home.scene.json") && ran.err.contains(message), "{}", ran.err);
+    }
 }

@@ -46,9 +46,17 @@ fn records_keep_to_their_schemas() {
 fn the_fixtures_keep_to_their_schemas() {
     let schema = schemars::schema_for!(Scene);
     let validator = jsonschema::validator_for(schema.as_value()).expect("a schema");
-    for text in
-        [include_str!("../fixtures/apartment.scene.json"), include_str!("../fixtures/apartment-modified.scene.json")]
-    {
-        assert!(validator.is_valid(&serde_json::from_str(text).expect("JSON")));
+    let map_schema = schemars::schema_for!(RoomMap);
+    let map_validator = jsonschema::validator_for(map_schema.as_value()).expect("a schema");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures");
+    for entry in std::fs::read_dir(folder).expect("the fixtures") {
+        let path = entry.expect("an entry").path();
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let text = || serde_json::from_str(&std::fs::read_to_string(&path).expect("read")).expect("JSON");
+        if name.ends_with(".scene.json") {
+            assert!(validator.is_valid(&text()), "{name}");
+        } else if name.ends_with(".map.json") {
+            assert!(map_validator.is_valid(&text()), "{name}");
+        }
     }
 }

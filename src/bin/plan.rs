@@ -7,7 +7,7 @@ use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, FromLog, Intake, Program};
 use spatial_fetch::planning::Planner;
 use spatial_fetch::record::Plan;
-use spatial_fetch::world::RoomMap;
+use spatial_fetch::world::{RoomMap, load_map};
 
 /// Turns what was understood into actions on a room map: enter the room, navigate inside it, find the object.
 ///
@@ -19,8 +19,8 @@ use spatial_fetch::world::RoomMap;
     after_help = "Example:\n  echo 'my mug is on the table by the chairs in the bedroom' | chunk | ground | plan --format text"
 )]
 struct Arguments {
-    /// Room map [default: the apartment]
-    #[arg(long, value_name = "FILE")]
+    /// Room map: a file, or a shipped home by its name (studio, flat, …) [default: apartment]
+    #[arg(long, value_name = "MAP")]
     map: Option<PathBuf>,
     #[command(flatten)]
     log: FromLog,
@@ -40,7 +40,7 @@ impl Program for Arguments {
         self.log.from.is_none() && self.common.files.is_empty()
     }
     fn run(self) -> Result<Exit, Failure> {
-        let map = self.map.map_or_else(|| Ok(RoomMap::apartment()), |path| RoomMap::load(&path));
+        let map = self.map.map_or_else(|| Ok(RoomMap::apartment()), |which| load_map(&which));
         let planner = Planner::new(map.map_err(|error| Failure::Failed(error.to_string()))?);
         let mut lines = self.log.lines(&self.common.files, "/fetch/ground")?;
         cli::run_filter_on(Self::NAME, &self.common, lines.as_mut(), Intake::Records, &planner)

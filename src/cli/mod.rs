@@ -10,10 +10,12 @@ mod exit;
 mod eyes;
 mod filter;
 mod frame_input;
+mod home;
 mod input;
 mod interrupt;
 mod log_input;
 mod output;
+mod parallel;
 mod program;
 mod progress;
 mod scores;
@@ -26,15 +28,17 @@ pub use exit::{Exit, Failure};
 pub use eyes::EyeArguments;
 pub use filter::{Intake, run_filter, run_filter_on};
 pub use frame_input::{FrameInput, FrameItem, FrameLogs, See, run_frames};
+pub use home::HomeArguments;
 pub use input::{Inputs, Line, read_file};
 pub use interrupt::on_interrupt;
 pub use log_input::FromLog;
 pub use output::{SharedSink, Sink, open_output};
+pub use parallel::in_parallel;
 pub use program::{Program, command_of, main};
 pub use progress::Progress;
 pub use scores::{
-    Table, find_description, load_corpora, load_gold, load_gold_with, read_lines, write_report, write_scores,
-    write_text,
+    Table, find_description, load_corpora, load_gold, load_gold_with, read_lines, write_report, write_robustness,
+    write_scores, write_text,
 };
 pub use source::Source;
 pub use threads::on_threads;

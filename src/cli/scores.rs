@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::{Common, Exit, Failure, Format, Inputs, Source, open_output, read_file};
+use crate::evaluation::robustness::{Robustness, robustness_tables};
 use crate::evaluation::{Gold, Scores, read_gold, text_tables, with_texts};
 use crate::record::Record;
 
@@ -114,4 +115,12 @@ pub fn load_corpora(files: &[PathBuf]) -> Result<Vec<(String, Vec<Gold>)>, Failu
         [] => SHIPPED.iter().map(|(file, text)| read(text, file)).collect(),
         files => files.iter().map(|path| read(&read_file(path)?, &path.display().to_string())).collect(),
     }
+}
+
+/// Writes what `evaluate robustness` added up; a world that could not be made makes the run a lossy one.
+pub fn write_robustness(common: &Common, robustness: &Robustness) -> Result<Exit, Failure> {
+    write_report(common, robustness, || robustness_tables(robustness))?;
+    let tallies = [&robustness.kept, &robustness.broken, &robustness.gold, &robustness.gold_from_text];
+    let lossless = tallies.into_iter().flatten().all(|tally| tally.not_made.is_empty());
+    Ok(if lossless { Exit::Done } else { Exit::Lost })
 }

@@ -19,6 +19,7 @@ mod model;
 mod paper;
 mod pipeline;
 mod report;
+pub mod robustness;
 mod score;
 mod table;
 mod training_frame;

@@ -32,6 +32,27 @@ impl Polygon {
         Self::new((0..sides).map(corner).collect())
     }
 
+    /// The convex hull of points (Andrew's monotone chain).
+    pub fn hull(mut points: Vec<Vec2>) -> Self {
+        points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+        let chain = |points: &mut dyn Iterator<Item = Vec2>| {
+            let mut chain: Vec<Vec2> = Vec::new();
+            for point in points {
+                while let [.., a, b] = chain[..]
+                    && cross(b - a, point - b) <= 0.0
+                {
+                    chain.pop();
+                }
+                chain.push(point);
+            }
+            chain.pop();
+            chain
+        };
+        let mut corners = chain(&mut points.iter().copied());
+        corners.extend(chain(&mut points.iter().rev().copied()));
+        Self { corners }
+    }
+
     /// The corners, counter-clockwise.
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
@@ -163,5 +184,13 @@ mod tests {
     fn the_border_counts_as_inside() {
         assert!(square(0.0, 0.0).contains(vec2(0.5, 0.0)));
         assert!(!square(0.0, 0.0).contains(vec2(0.500001, 0.0)));
+    }
+
+    #[test]
+    fn the_hull_leaves_out_what_lies_inside() {
+        let points = [(0.0, 0.0), (2.0, 0.0), (1.0, 0.5), (2.0, 2.0), (1.0, 0.0), (0.0, 2.0), (0.5, 1.5)];
+        let hull = Polygon::hull(points.map(|(x, y)| vec2(x, y)).to_vec());
+        assert_eq!(hull.corners().len(), 4);
+        assert!((hull.area() - 4.0).abs() < 1e-12);
     }
 }

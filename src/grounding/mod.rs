@@ -20,7 +20,7 @@ mod words;
 pub use answer::answer;
 pub use assemble::assemble;
 pub use grounder::{Grounder, Method};
-pub use meaning::{Kind, Meaning, meaning_of_label};
+pub use meaning::{Kind, Meaning, meaning_of_label, pair as usual_pair};
 pub use settings::{MethodName, Settings, SettingsError};
 pub use stage::GroundStage;
 pub use words::{ChunkWords, chunk_words, chunk_words_of};

@@ -1,7 +1,7 @@
 //! What is measured of a piece: shape, size, height, colour, and how it stands to the walls and the picture.
 
 use super::floor_grid::{CELL_M, FloorGrid};
-use super::rectangle::{convex_hull, rectangle_at};
+use super::rectangle::rectangle_at;
 use super::segment::Segment;
 use super::walls::Wall;
 use crate::geometry::{Polygon, Pose, Vec2, vec2};
@@ -135,8 +135,8 @@ fn bands(sorted: &[f32]) -> impl Iterator<Item = f64> {
 }
 
 fn hull_area(outline: &[Vec2]) -> f64 {
-    let hull = convex_hull(outline);
-    if hull.len() < 3 { 0.0 } else { Polygon::new(hull).area() }
+    let hull = Polygon::hull(outline.to_vec());
+    if hull.corners().len() < 3 { 0.0 } else { hull.area() }
 }
 
 /// Metres from the middle of each side to the nearest wall: ahead, left, behind and right in the frame of `pose`.

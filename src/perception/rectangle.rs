@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::geometry::{Pose, Vec2, cross, vec2};
+use crate::geometry::{Polygon, Pose, Vec2, vec2};
 
 /// A rectangle: its middle with the heading of its long side, and both sides, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,7 @@ pub struct Rectangle {
 pub fn closest_rectangle(outline: &[Vec2]) -> Option<Rectangle> {
     const STEPS: usize = 45;
     const NEAREST_M: f64 = 0.03;
-    if convex_hull(outline).len() < 3 {
+    if Polygon::hull(outline.to_vec()).corners().len() < 3 {
         return None;
     }
     let sample: Vec<Vec2> = outline.iter().copied().step_by(1 + outline.len() / 160).collect();
@@ -61,29 +61,6 @@ pub fn rectangle_at(points: &[Vec2], heading: f64) -> Rectangle {
     let (heading, long, short) =
         if along >= across { (heading, along, across) } else { (heading + FRAC_PI_2, across, along) };
     Rectangle { pose: Pose::new(middle.x, middle.y, crate::geometry::wrap_angle(heading)), long, short }
-}
-
-/// Counter-clockwise, by Andrew's monotone chain.
-pub fn convex_hull(points: &[Vec2]) -> Vec<Vec2> {
-    let mut sorted = points.to_vec();
-    sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    sorted.dedup();
-    let mut hull: Vec<Vec2> = Vec::new();
-    for pass in 0..2 {
-        let base = hull.len();
-        let ordered: Box<dyn Iterator<Item = &Vec2>> =
-            if pass == 0 { Box::new(sorted.iter()) } else { Box::new(sorted.iter().rev()) };
-        for &point in ordered {
-            while hull.len() >= base + 2
-                && cross(hull[hull.len() - 1] - hull[hull.len() - 2], point - hull[hull.len() - 1]) <= 0.0
-            {
-                hull.pop();
-            }
-            hull.push(point);
-        }
-        hull.pop();
-    }
-    hull
 }
 
 #[cfg(test)]

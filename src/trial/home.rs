@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::rc::Rc;
 
-use crate::world::{RoomMap, Scene, WorldError};
+use crate::world::{RoomMap, SHIPPED_HOMES, Scene, WorldError, load_map, load_world};
 
 /// A room map with the scene on it.
 #[derive(Clone, Debug)]
@@ -15,14 +15,19 @@ pub struct Home {
 }
 
 impl Home {
-    /// The home of the given files; the apartment where none is named.
-    pub fn load(map: Option<&Path>, scene: Option<&Path>) -> Result<Self, WorldError> {
-        let map = map.map_or_else(|| Ok(RoomMap::apartment()), RoomMap::load)?;
-        let scene = match scene {
-            Some(path) => Scene::load(path, &map)?,
-            None => Scene::apartment(),
+    /// A shipped home by its name, or a scene file with the map it leads to; the apartment where none is named.
+    ///
+    /// `map` stands in for the room map of a scene file that leads to none.
+    pub fn load(map: Option<&Path>, world: Option<&Path>) -> Result<Self, WorldError> {
+        let (map, scene) = match (map, world) {
+            (Some(map), Some(scene)) => {
+                let map = load_map(map)?;
+                let scene = Scene::load(scene, &map)?;
+                (map, scene)
+            }
+            (None, Some(world)) => load_world(world)?,
+            (_, None) => SHIPPED_HOMES[0].load()?,
         };
-        crate::world::check(&scene, &map, "the embedded scene")?;
         Ok(Self { map, scene })
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use serde::de::DeserializeOwned;
+use serde::Deserialize;
 
 /// A world that cannot be used, and why.
 #[derive(Debug, thiserror::Error)]
@@ -56,11 +56,25 @@ pub(super) fn read(path: &Path) -> Result<String, WorldError> {
 }
 
 /// Parses a world file, naming the place of what is wrong.
-pub(super) fn parse<T: DeserializeOwned>(text: &str, file: &str) -> Result<T, WorldError> {
-    serde_json::from_str(text).map_err(|error| WorldError::Malformed {
-        file: file.to_string(),
-        line: error.line(),
-        column: error.column(),
-        message: crate::record::message_without_position(&error),
+pub(super) fn parse<'t, T: Deserialize<'t>>(text: &'t str, file: &str) -> Result<T, WorldError> {
+    parse_at(text, 0, text.len(), file)
+}
+
+/// Parses `length` bytes from `offset` on of a world file, naming the place in the whole file of what is wrong.
+pub(super) fn parse_at<'t, T: Deserialize<'t>>(
+    text: &'t str,
+    offset: usize,
+    length: usize,
+    file: &str,
+) -> Result<T, WorldError> {
+    let before = &text[..offset];
+    serde_json::from_str(&text[offset..offset + length]).map_err(|error| {
+        let into_line = before.len() - before.rfind('\n').map_or(0, |at| at + 1);
+        WorldError::Malformed {
+            file: file.to_string(),
+            line: error.line() + before.matches('\n').count(),
+            column: error.column() + if error.line() == 1 { into_line } else { 0 },
+            message: crate::record::message_without_position(&error),
+        }
     })
 }

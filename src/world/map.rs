@@ -34,6 +34,9 @@ pub struct RoomMap {
     pub rooms: Vec<Room>,
     /// The doors between them.
     pub doors: Vec<Door>,
+    /// Further walls inside the rooms, from end to end: partitions, columns.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub inner_walls: Vec<[[f64; 2]; 2]>,
 }
 
 /// A room.
@@ -100,20 +103,28 @@ impl RoomMap {
                 start: Pose::default(),
                 rooms: vec![],
                 doors: vec![],
+                inner_walls: vec![],
             }
         })
     }
 
-    /// Reads and checks a room map.
+    /// Reads and checks a room map file, JSON or the YAML of a ROS `map_server` pair.
     pub fn load(path: &Path) -> Result<Self, WorldError> {
+        if super::map_server::is_map_file(path) {
+            return super::map_server::load(path);
+        }
         Self::from_json(&read(path)?, &path.display().to_string())
     }
 
     /// Parses and checks a room map; `file` is named in errors.
     pub fn from_json(text: &str, file: &str) -> Result<Self, WorldError> {
-        let map: Self = parse(text, file)?;
-        super::check::check_map(&map, file)?;
-        Ok(map)
+        parse::<Self>(text, file)?.checked(file)
+    }
+
+    /// This room map, when it can be; `file` is named in errors.
+    pub(super) fn checked(self, file: &str) -> Result<Self, WorldError> {
+        super::check::check_map(&self, file)?;
+        Ok(self)
     }
 
     /// The room of that very name.
@@ -195,12 +206,14 @@ impl RoomMap {
         })
     }
 
-    /// The walls: every outline's edges less the doors in them, metres.
+    /// The walls: every outline's edges less the doors in them, and those inside the rooms, metres.
     pub fn walls(&self) -> Vec<(Vec2, Vec2)> {
+        let inner = self.inner_walls.iter().map(|&[a, b]| (vec2(a[0], a[1]), vec2(b[0], b[1])));
         self.rooms
             .iter()
             .flat_map(|room| room.polygon().edges().collect::<Vec<_>>())
             .flat_map(|e| self.without_doors(e))
+            .chain(inner)
             .collect()
     }
 

@@ -1,12 +1,16 @@
 //! The scene: the furniture and objects that are truly there. Never given to the executive.
 
+use std::fmt;
 use std::path::Path;
+use std::sync::Arc;
 
 use schemars::JsonSchema;
+use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
 use super::error::{WorldError, parse, read};
 use super::furniture::{self, Category, Shape, Size, SmallObject};
+use super::mesh::{Mesh, MeshFile, Point};
 use super::solid::{Color, Solid};
 use super::{Noise, RoomMap};
 use crate::geometry::{Polygon, Pose, Vec2, vec2};
@@ -19,7 +23,9 @@ pub struct Scene {
     pub version: u32,
     /// Name of the arrangement.
     pub name: String,
-    /// Name of the room map it stands on.
+    /// The room map it stands on: the name of one, a file beside this one, or the room map itself.
+    #[serde(deserialize_with = "map_name")]
+    #[schemars(with = "MapOfScene")]
     pub map: String,
     /// The furniture.
     pub furniture: Vec<Item>,
@@ -31,8 +37,48 @@ pub struct Scene {
     pub noise: Option<Noise>,
 }
 
+/// What stands at `map`.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[allow(dead_code)]
+enum MapOfScene {
+    /// By name or file.
+    Named(String),
+    /// In its place.
+    Whole(RoomMap),
+}
+
+/// The name of the map, whether it is named or stands there whole.
+fn map_name<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
+    struct Name;
+    impl<'de> Visitor<'de> for Name {
+        type Value = String;
+
+        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+            f.write_str("the name of a room map, or a room map")
+        }
+
+        fn visit_str<E>(self, name: &str) -> Result<String, E> {
+            Ok(name.to_string())
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut keys: A) -> Result<String, A::Error> {
+            let mut name = String::new();
+            while let Some(key) = keys.next_key::<String>()? {
+                if key == "name" {
+                    name = keys.next_value()?;
+                } else {
+                    keys.next_value::<IgnoredAny>()?;
+                }
+            }
+            Ok(name)
+        }
+    }
+    deserializer.deserialize_any(Name)
+}
+
 /// A piece of furniture.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Item {
     /// Name of the piece.
@@ -61,6 +107,9 @@ pub struct Item {
     /// Words that hold for it, where they are not the category's: "white", "square".
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub attributes: Vec<String>,
+    /// A mesh in place of the category's solids.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshFile>,
 }
 
 /// A portable object on a piece of furniture.
@@ -107,7 +156,7 @@ impl Item {
 
     /// Its size.
     pub fn size(&self) -> Size {
-        let usual = self.kind().size;
+        let usual = self.loaded_mesh().map_or(self.kind().size, |mesh| mesh.size());
         Size {
             length: self.length.unwrap_or(usual.length),
             width: self.width.unwrap_or(usual.width),
@@ -115,8 +164,24 @@ impl Item {
         }
     }
 
+    /// Its mesh, when it has one.
+    pub fn loaded_mesh(&self) -> Option<&Arc<Mesh>> {
+        self.mesh.as_ref().and_then(|file| file.loaded.as_ref())
+    }
+
+    /// How much longer, wider and higher its mesh is made.
+    fn stretch(&self, mesh: &Mesh) -> Point {
+        let (size, own) = (self.size(), mesh.size());
+        Point::new(size.length / own.length, size.width / own.width, size.height / own.height)
+    }
+
     /// Its outline on the floor.
     pub fn footprint(&self) -> Polygon {
+        if let Some(mesh) = self.loaded_mesh() {
+            let (pose, stretch) = (self.pose(), self.stretch(mesh));
+            let corners = mesh.outline().iter().map(|c| pose.to_world(vec2(c.x * stretch.x, c.y * stretch.y)));
+            return Polygon::new(corners.collect());
+        }
         furniture::footprint(self.kind().shape, self.pose(), self.size())
     }
 
@@ -140,7 +205,11 @@ impl Item {
     /// The solids it is composed of.
     pub fn solids(&self) -> Vec<Solid> {
         let kind = self.kind();
-        furniture::solids(kind.shape, self.pose(), self.size(), self.color.unwrap_or(kind.color))
+        let color = self.color.unwrap_or(kind.color);
+        if let Some(mesh) = self.loaded_mesh() {
+            return vec![Solid::mesh(mesh, self.pose(), self.stretch(mesh), color)];
+        }
+        furniture::solids(kind.shape, self.pose(), self.size(), color)
     }
 }
 
@@ -197,7 +266,26 @@ impl Scene {
 
     /// Reads a scene and checks it against its room map.
     pub fn load(path: &Path, map: &RoomMap) -> Result<Self, WorldError> {
-        Self::from_json(&read(path)?, &path.display().to_string(), map)
+        let scene = Self::parse(&read(path)?, path)?;
+        super::check(&scene, map, &path.display().to_string())?;
+        Ok(scene)
+    }
+
+    /// Parses a scene file with what it refers to.
+    pub(super) fn parse(text: &str, path: &Path) -> Result<Self, WorldError> {
+        let mut scene: Self = parse(text, &path.display().to_string())?;
+        for item in &mut scene.furniture {
+            if let Some(mesh) = &mut item.mesh {
+                mesh.load(path, &item.id)?;
+            }
+        }
+        Ok(scene)
+    }
+
+    /// This scene on a map that it names by its file.
+    pub(super) fn on(mut self, map: &RoomMap) -> Self {
+        self.map = map.name.clone();
+        self
     }
 
     /// Parses a scene and checks it against its room map; `file` is named in errors.
@@ -254,5 +342,24 @@ mod tests {
         let couch = Scene::apartment().item("couch-1").expect("a couch").footprint();
         let (low, high) = couch.bounds();
         assert!((high.x - low.x - 2.06).abs() < 1e-9 && (high.y - low.y - 0.73).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_mesh_beside_the_scene_gives_a_piece_its_size_outline_and_solids() {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("box.obj"), crate::world::mesh::tests::BOX).expect("written");
+        let table = r#""id": "coffee-table-1", "category": "coffee_table","#;
+        let text = include_str!("../../fixtures/apartment.scene.json")
+            .replace(table, &format!(r#"{table} "mesh": {{"file": "box.obj", "front_deg": 90}}, "width": 0.7,"#));
+        let path = folder.path().join("home.scene.json");
+        std::fs::write(&path, text).expect("written");
+        let scene = Scene::load(&path, &RoomMap::apartment()).expect("a sound scene");
+        let item = scene.item("coffee-table-1").expect("there");
+        assert!((item.size().length - 2.0).abs() < 1e-9 && item.size().width == 0.7);
+        let (low, high) = item.footprint().bounds();
+        assert!((high.x - low.x - 2.0).abs() < 1e-9 && (high.y - low.y - 0.7).abs() < 1e-9);
+        let ray = crate::world::Ray { origin: vec2(0.0, 4.0), height: 0.3, direction: vec2(1.0, 0.0), climb: 0.0 };
+        let hit = item.solids()[0].hit(&ray).expect("a hit");
+        assert!((hit.distance - 3.5).abs() < 1e-9 && hit.normal[0] < -0.99, "{hit:?}");
     }
 }

@@ -1,11 +1,14 @@
-//! Solids: vertical prisms, of which all furniture is composed.
+//! Solids: vertical prisms, of which furniture is composed, and meshes from files.
 
+use std::sync::Arc;
+
+use super::mesh::{Mesh, Point};
 use crate::geometry::{Polygon, Pose, Vec2, cross, vec2};
 
 /// Red, green, blue.
 pub type Color = [u8; 3];
 
-/// A vertical prism over a convex footprint.
+/// A vertical prism over a convex footprint, or a mesh that fills part of one.
 #[derive(Clone, Debug)]
 pub struct Solid {
     footprint: Polygon,
@@ -14,6 +17,15 @@ pub struct Solid {
     bottom: f64,
     top: f64,
     color: Color,
+    mesh: Option<PlacedMesh>,
+}
+
+/// A mesh at a pose, its axes stretched.
+#[derive(Clone, Debug)]
+struct PlacedMesh {
+    mesh: Arc<Mesh>,
+    pose: Pose,
+    stretch: Point,
 }
 
 /// Where a ray enters a solid.
@@ -42,13 +54,20 @@ impl Solid {
     /// A prism from `bottom` to `top`, metres above the floor.
     pub fn new(footprint: Polygon, bottom: f64, top: f64, color: Color) -> Self {
         let (low, high) = footprint.bounds();
-        Self { footprint, low, high, bottom, top, color }
+        Self { footprint, low, high, bottom, top, color, mesh: None }
     }
 
     /// A box in the frame of `pose`: `x` and `y` are (from, to) along and across, metres.
     pub fn block(pose: Pose, x: (f64, f64), y: (f64, f64), z: (f64, f64), color: Color) -> Self {
         let corners = [(x.0, y.0), (x.1, y.0), (x.1, y.1), (x.0, y.1)].map(|(a, b)| pose.to_world(vec2(a, b)));
         Self::new(Polygon::new(corners.to_vec()), z.0, z.1, color)
+    }
+
+    /// A mesh that stands at `pose`, its length, width and height stretched by the given factors.
+    pub fn mesh(mesh: &Arc<Mesh>, pose: Pose, stretch: Point, color: Color) -> Self {
+        let corners = mesh.outline().iter().map(|c| pose.to_world(vec2(c.x * stretch.x, c.y * stretch.y)));
+        let solid = Self::new(Polygon::new(corners.collect()), 0.0, mesh.size().height * stretch.z, color);
+        Self { mesh: Some(PlacedMesh { mesh: Arc::clone(mesh), pose, stretch }), ..solid }
     }
 
     /// Its colour.
@@ -71,11 +90,19 @@ impl Solid {
         self.bottom
     }
 
+    /// The triangles of a mesh, where they stand; nothing for a prism.
+    pub fn triangles(&self) -> Option<Vec<[Point; 3]>> {
+        self.mesh.as_ref().map(PlacedMesh::triangles)
+    }
+
     /// Where `ray` enters, when it does ahead of its origin.
     pub fn hit(&self, ray: &Ray) -> Option<Hit> {
         let (mut enter, mut leave, mut normal) = self.height_span(ray)?;
         if !self.may_hit(ray) {
             return None;
+        }
+        if let Some(mesh) = &self.mesh {
+            return mesh.hit(ray);
         }
         // The convex outline, counter-clockwise: clip the ray by each edge's half-plane.
         for (a, b) in self.footprint.edges() {
@@ -126,6 +153,32 @@ impl Solid {
             leave = leave.min(t0.max(t1));
         }
         enter <= leave
+    }
+}
+
+impl PlacedMesh {
+    fn triangles(&self) -> Vec<[Point; 3]> {
+        let place = |corner: &Point| {
+            let local = corner.component_mul(&self.stretch);
+            let at = self.pose.to_world(vec2(local.x, local.y));
+            Point::new(at.x, at.y, local.z)
+        };
+        self.mesh
+            .triangles()
+            .iter()
+            .map(|corners| [place(&corners[0]), place(&corners[1]), place(&corners[2])])
+            .collect()
+    }
+
+    fn hit(&self, ray: &Ray) -> Option<Hit> {
+        let (sin, cos) = self.pose.heading.sin_cos();
+        let at = self.pose.to_local(ray.origin);
+        let origin = Point::new(at.x, at.y, ray.height).component_div(&self.stretch);
+        let d = ray.direction;
+        let turned = Point::new(cos * d.x + sin * d.y, -sin * d.x + cos * d.y, ray.climb);
+        let (distance, normal) = self.mesh.hit(origin, turned.component_div(&self.stretch))?;
+        let n = normal.component_div(&self.stretch).normalize();
+        Some(Hit { distance, normal: [cos * n.x - sin * n.y, sin * n.x + cos * n.y, n.z] })
     }
 }
 

@@ -3,13 +3,12 @@
 mod executive;
 mod outputs;
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, FromLog, Intake, Program};
+use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, FromLog, HomeArguments, Intake, Program};
 use spatial_fetch::record::Trial;
-use spatial_fetch::trial::{Driver, Home, NoiseLevel, Settings};
+use spatial_fetch::trial::{Driver, NoiseLevel, Settings};
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
 ///
@@ -21,12 +20,8 @@ use spatial_fetch::trial::{Driver, Home, NoiseLevel, Settings};
     after_help = "Example:\n  echo 'my mug is on the table by the chairs in the bedroom' | chunk | ground | plan | drive --format text"
 )]
 struct Arguments {
-    /// Room map [default: the apartment]
-    #[arg(long, value_name = "FILE", requires = "scene")]
-    map: Option<PathBuf>,
-    /// Furniture and objects of the simulated home [default: the apartment as first furnished]
-    #[arg(long, value_name = "FILE")]
-    scene: Option<PathBuf>,
+    #[command(flatten)]
+    home: HomeArguments,
     /// How imperfect the robot's wheels, sonars, compass and start are
     #[arg(long, value_enum, default_value = "default")]
     noise: NoiseLevel,
@@ -54,8 +49,7 @@ impl Program for Arguments {
         self.log.from.is_none() && self.common.files.is_empty()
     }
     fn run(self) -> Result<Exit, Failure> {
-        let home =
-            Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
+        let home = self.home.load()?;
         let settings = Settings {
             options: self.executive.options(),
             perception: self.eyes.perception,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 
 use clap::Args;
-use spatial_fetch::cli::{self, Common, Exit, Failure, Format, Progress};
+use spatial_fetch::cli::{self, Common, Exit, Failure, Format, HomeArguments, Progress};
 use spatial_fetch::evaluation::behavior::{
     BehaviorReport, Selection, Source, Study, behavior_tables, conditions, instructions,
 };
@@ -16,12 +16,8 @@ pub struct Arguments {
     /// Gold descriptions [default: the shipped templates]
     #[arg(long, value_name = "FILE")]
     gold: Option<PathBuf>,
-    /// Room map [default: the apartment]
-    #[arg(long, value_name = "FILE", requires = "scene")]
-    map: Option<PathBuf>,
-    /// Furniture and objects [default: the apartment as first furnished, then with its furniture moved]
-    #[arg(long, value_name = "FILE")]
-    scene: Option<PathBuf>,
+    #[command(flatten)]
+    home: HomeArguments,
     /// Where the instructions come from
     #[arg(long, value_enum, default_value = "gold")]
     instructions: Source,
@@ -72,10 +68,9 @@ impl Arguments {
     }
 
     fn homes(&self) -> Result<Vec<(&'static str, Home)>, Failure> {
-        let home =
-            Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
-        if self.scene.is_some() {
-            return Ok(vec![("furniture of --scene", home)]);
+        let home = self.home.load()?;
+        if self.home.world.is_some() {
+            return Ok(vec![("furniture of --world", home)]);
         }
         let moved = Home { scene: Scene::apartment_modified(), ..home.clone() };
         Ok(vec![("Table II: as first furnished", home), ("Table III: furniture moved", moved)])

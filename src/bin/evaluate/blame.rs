@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use spatial_fetch::cli::{self, Common, Exit, Failure};
+use spatial_fetch::cli::{self, Common, Exit, Failure, HomeArguments};
 use spatial_fetch::evaluation::{Measure, Wanted, blame, blame_text};
-use spatial_fetch::trial::{Home, Perception, Settings};
+use spatial_fetch::trial::{Perception, Settings};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -15,12 +15,8 @@ pub struct Arguments {
     /// Gold meanings in a file of their own; descriptions without one are left out
     #[arg(long, value_name = "FILE", requires = "gold")]
     meanings: Option<PathBuf>,
-    /// Room map [default: the apartment]
-    #[arg(long, value_name = "FILE", requires = "scene")]
-    map: Option<PathBuf>,
-    /// Furniture and objects of the simulated home
-    #[arg(long, value_name = "FILE")]
-    scene: Option<PathBuf>,
+    #[command(flatten)]
+    home: HomeArguments,
     /// What a trial has to reach
     #[arg(long, value_enum, value_name = "WHAT", default_value = "right-first")]
     measure: Measure,
@@ -37,8 +33,7 @@ pub struct Arguments {
 impl Arguments {
     pub fn run(self) -> Result<Exit, Failure> {
         let gold = cli::load_gold_with(self.gold.as_deref(), self.meanings.as_deref())?;
-        let home =
-            Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
+        let home = self.home.load()?;
         let settings = Settings { perception: self.perception, seed: self.common.seed, ..Settings::default() };
         let blames = cli::on_threads(self.common.jobs, || blame(&gold, &home, &settings, self.measure, self.wanted))?;
         cli::write_report(&self.common, &blames, || blame_text(&blames))?;

@@ -10,7 +10,9 @@ mod import;
 mod merge;
 mod paper;
 mod perception;
+mod robustness;
 mod run;
+mod scene;
 mod score;
 mod train;
 mod what_if;
@@ -56,6 +58,10 @@ enum What {
     Counterfactual(what_if::Arguments),
     /// Add up the scores of the parts of a run
     Merge(merge::Arguments),
+    /// Moved furniture, other homes, and homes made for gold groundings
+    Robustness(robustness::Arguments),
+    /// Make one scene: furniture placed anew, or a whole new home
+    Scene(scene::Arguments),
     /// Render frames of rooms furnished at random, with the truth, to train and test perception on
     Frames(frames::Arguments),
     /// Score detections against frames whose furniture is known
@@ -80,6 +86,8 @@ impl Program for Arguments {
             What::Compare(arguments) => &arguments.common,
             What::Counterfactual(arguments) => &arguments.common,
             What::Merge(arguments) => &arguments.common,
+            What::Robustness(arguments) => &arguments.common,
+            What::Scene(arguments) => &arguments.common,
             What::Frames(arguments) => &arguments.common,
             What::Perception(arguments) => &arguments.common,
             What::Train(arguments) => &arguments.common,
@@ -110,6 +118,8 @@ impl Program for Arguments {
             What::Compare(arguments) => arguments.run(),
             What::Counterfactual(arguments) => arguments.run(),
             What::Merge(arguments) => arguments.run(),
+            What::Robustness(arguments) => arguments.run(),
+            What::Scene(arguments) => arguments.run(),
             What::Frames(arguments) => arguments.run(),
             What::Perception(arguments) => arguments.run(),
             What::Train(arguments) => arguments.run(),

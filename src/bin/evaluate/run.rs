@@ -4,21 +4,17 @@ use std::path::PathBuf;
 
 use clap::Args;
 use spatial_fetch::behavior::Options;
-use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, Table};
+use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, HomeArguments, Table};
 use spatial_fetch::evaluation::{run_corpus, score};
-use spatial_fetch::trial::{Home, Settings};
+use spatial_fetch::trial::Settings;
 
 #[derive(Args)]
 pub struct Arguments {
     /// Gold descriptions [default: the shipped templates]
     #[arg(long, value_name = "FILE")]
     gold: Option<PathBuf>,
-    /// Room map [default: the apartment]
-    #[arg(long, value_name = "FILE", requires = "scene")]
-    map: Option<PathBuf>,
-    /// Furniture and objects of the simulated home
-    #[arg(long, value_name = "FILE")]
-    scene: Option<PathBuf>,
+    #[command(flatten)]
+    home: HomeArguments,
     /// Room and object only, nearest table first
     #[arg(long)]
     blind: bool,
@@ -31,8 +27,7 @@ pub struct Arguments {
 impl Arguments {
     pub fn run(self) -> Result<Exit, Failure> {
         let gold = cli::load_gold(self.gold.as_deref())?;
-        let home =
-            Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
+        let home = self.home.load()?;
         let options = Options { blind: self.blind, ..Options::default() };
         let (perception, kinect) = (self.eyes.perception, self.eyes.kinect());
         let settings = Settings { options, perception, kinect, seed: self.common.seed, ..Settings::default() };

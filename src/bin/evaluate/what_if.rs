@@ -1,11 +1,9 @@
 //! `evaluate what-if`: the smallest changes of words and furniture that change the outcome.
 
-use std::path::PathBuf;
-
 use clap::Args;
-use spatial_fetch::cli::{self, Common, Exit, Failure};
+use spatial_fetch::cli::{self, Common, Exit, Failure, HomeArguments};
 use spatial_fetch::evaluation::{what_if, what_if_text};
-use spatial_fetch::trial::{Home, Settings};
+use spatial_fetch::trial::Settings;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -15,12 +13,8 @@ pub struct Arguments {
     /// The description of this id in the files or on standard input
     #[arg(long, value_name = "ID", conflicts_with = "text")]
     id: Option<String>,
-    /// Room map [default: the apartment]
-    #[arg(long, value_name = "FILE", requires = "scene")]
-    map: Option<PathBuf>,
-    /// Furniture and objects of the simulated home
-    #[arg(long, value_name = "FILE")]
-    scene: Option<PathBuf>,
+    #[command(flatten)]
+    home: HomeArguments,
     /// Shift this piece of furniture only; may be given several times
     #[arg(long, value_name = "ID")]
     piece: Vec<String>,
@@ -39,8 +33,7 @@ impl Arguments {
             Some(text) => ("1".to_string(), text.clone()),
             None => cli::find_description(&self.common.files, self.id.as_deref())?,
         };
-        let home =
-            Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
+        let home = self.home.load()?;
         if let Some(unknown) = self.piece.iter().find(|id| home.scene.item(id).is_none()) {
             let ids: Vec<&str> = home.scene.furniture.iter().map(|item| item.id.as_str()).collect();
             return Err(Failure::Usage(format!("--piece: no {unknown:?} here; there are {}", ids.join(", "))));

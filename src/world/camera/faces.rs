@@ -104,8 +104,12 @@ impl Faces {
 
     /// Adds a solid that belongs to the item `id` − 1.
     pub fn add_solid(&mut self, solid: &Solid, texture: Texture, id: u16) {
-        let outline = solid.footprint().corners().to_vec();
         let finish = Finish::new(solid.color(), texture);
+        if let Some(triangles) = solid.triangles() {
+            triangles.into_iter().for_each(|corners| self.add_triangle(corners, finish, id));
+            return;
+        }
+        let outline = solid.footprint().corners().to_vec();
         let frustum = Frustum { top: outline.clone(), bottom: outline, low: solid.bottom(), high: solid.top(), finish };
         self.add_frustum(&frustum, id);
     }
