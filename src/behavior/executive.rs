@@ -107,6 +107,7 @@ impl<'a> Executive<'a> {
             Err(Halt::Blocked(why)) => (Outcome::Blocked, why),
             Err(Halt::Timeout) => (Outcome::Timeout, format!("not found within {} s", self.options.time_limit_s)),
             Err(Halt::Stopped) => (Outcome::Stopped, "told to stop".to_string()),
+            Err(Halt::Held(why)) => (Outcome::Stopped, why),
             Err(Halt::LinkLost(why)) => (Outcome::LinkLost, why),
         };
         self.pilot.end(&why);

@@ -47,13 +47,18 @@ pub enum Halt {
     Timeout,
     /// Someone asked to stop.
     Stopped,
+    /// The robot is held, by its STOP button or a stall; says by what.
+    Held(String),
     /// The robot no longer answers; says why.
     LinkLost(String),
 }
 
 impl From<RobotError> for Halt {
     fn from(error: RobotError) -> Self {
-        Self::LinkLost(error.to_string())
+        match error {
+            RobotError::Link(_) => Self::LinkLost(error.to_string()),
+            RobotError::Held(why) => Self::Held(why),
+        }
     }
 }
 
