@@ -24,7 +24,8 @@ fn the_robot_finds_the_mug_and_leaves_plot_picture_and_log() {
     assert_eq!(trial["picture"], "1.png");
     assert!(std::fs::read_to_string(&plot).expect("a plot").contains("<svg"));
     assert!(std::fs::read(folder.path().join("pictures/1.png")).expect("a picture").starts_with(b"\x89PNG"));
-    let records = spatial_fetch::recording::records(&folder.path().join("trial-1.mcap")).expect("a log");
+    let records =
+        spatial_fetch::recording::records(&folder.path().join("trial-1.mcap"), "/fetch/drive").expect("a log");
     assert_eq!(records, [ran.out.trim_end()]);
 }
 

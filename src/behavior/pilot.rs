@@ -134,11 +134,16 @@ impl<'a> Pilot<'a> {
     /// Looks once and takes in what is seen; true when the furniture has changed.
     pub fn look(&mut self) -> bool {
         let view = self.eyes.look(self.base.pose());
+        let time_s = self.base.time_s();
+        if let Some(frame) = self.eyes.frame() {
+            self.watcher.frame(time_s, self.base.pose(), frame);
+        }
         let changed = self.beliefs.take_in(&view);
         self.view = view;
         if changed {
             self.rebuild_grid();
-            self.watcher.furniture(self.base.time_s(), &self.beliefs.furniture);
+            self.watcher.furniture(time_s, &self.beliefs.furniture);
+            self.watcher.grid(time_s, &self.grid);
         }
         changed
     }
@@ -282,7 +287,7 @@ impl<'a> Pilot<'a> {
         self.base.drive(linear, angular, TICK_S)?;
         let (time_s, pose) = (self.base.time_s(), self.base.pose());
         self.journal.passed(time_s, pose);
-        self.watcher.pose(time_s, pose);
+        self.watcher.sensed(self.base);
         if self.watcher.wants_stop() {
             return Err(Halt::Stopped);
         }

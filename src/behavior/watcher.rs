@@ -1,12 +1,18 @@
 //! Someone who looks on: a recording, a live view. Nobody by default.
 
 use super::Furniture;
-use crate::geometry::Pose;
+use crate::frame::RgbdFrame;
+use crate::geometry::{ClearanceGrid, Pose};
+use crate::robot::MobileBase;
 
 /// Hears of everything the executive does, as it happens. Times are the robot's seconds.
 pub trait Watcher {
-    /// The robot is here, as it believes.
-    fn pose(&mut self, _time_s: f64, _pose: Pose) {}
+    /// A control period has passed: where the robot believes it is, how it moves, what its sonars hear.
+    fn sensed(&mut self, _base: &dyn MobileBase) {}
+    /// The eyes looked through a camera, and this is its frame.
+    fn frame(&mut self, _time_s: f64, _believed: Pose, _frame: &RgbdFrame) {}
+    /// The grid on which ways are planned has changed.
+    fn grid(&mut self, _time_s: f64, _grid: &ClearanceGrid) {}
     /// A decision or an event, with its reason.
     fn said(&mut self, _time_s: f64, _text: &str) {}
     /// What the robot believes of the furniture has changed.

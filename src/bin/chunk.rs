@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
+use spatial_fetch::cli::{self, Common, Exit, Failure, FromLog, Intake, Program};
 use spatial_fetch::language::{Chunker, lexicon_with};
 use spatial_fetch::record::{Chunk, Token};
 
@@ -26,6 +26,8 @@ struct Arguments {
     #[arg(long, value_name = "FILE")]
     lexicon: Option<PathBuf>,
     #[command(flatten)]
+    log: FromLog,
+    #[command(flatten)]
     common: Common,
 }
 
@@ -45,11 +47,15 @@ impl Program for Arguments {
     fn schema() -> schemars::Schema {
         schemars::schema_for!(Chunked)
     }
+    fn reads_standard_input(&self) -> bool {
+        self.log.from.is_none() && self.common.files.is_empty()
+    }
     fn run(self) -> Result<Exit, Failure> {
         let lexicon = self.lexicon.as_deref().map(lexicon_with).transpose();
         let lexicon = lexicon.map_err(|error| Failure::Failed(error.to_string()))?.map(Arc::new);
         let chunker = Chunker { lexicon, explain: self.explain };
-        cli::run_filter(Self::NAME, &self.common, Intake::RecordsOrText, &chunker)
+        let mut lines = self.log.lines(&self.common.files, "/fetch/input")?;
+        cli::run_filter_on(Self::NAME, &self.common, lines.as_mut(), Intake::RecordsOrText, &chunker)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
+use spatial_fetch::cli::{self, Common, Exit, Failure, FromLog, Intake, Program};
 use spatial_fetch::grounding::{GroundStage, Settings};
 use spatial_fetch::record::Grounding;
 
@@ -20,6 +20,8 @@ struct Arguments {
     #[command(flatten)]
     settings: Settings,
     #[command(flatten)]
+    log: FromLog,
+    #[command(flatten)]
     common: Common,
 }
 
@@ -32,7 +34,7 @@ impl Program for Arguments {
         schemars::schema_for!(Grounding)
     }
     fn reads_standard_input(&self) -> bool {
-        self.settings.train.is_none() && self.common.files.is_empty()
+        self.settings.train.is_none() && self.log.from.is_none() && self.common.files.is_empty()
     }
     fn run(self) -> Result<Exit, Failure> {
         let failed = |error: spatial_fetch::grounding::SettingsError| Failure::Failed(error.to_string());
@@ -42,7 +44,8 @@ impl Program for Arguments {
             return sink.finish().map(|()| Exit::Done);
         }
         let stage = GroundStage { grounder: self.settings.grounder().map_err(failed)?, answer: self.settings.answer };
-        cli::run_filter(Self::NAME, &self.common, Intake::Records, &stage)
+        let mut lines = self.log.lines(&self.common.files, "/fetch/chunk")?;
+        cli::run_filter_on(Self::NAME, &self.common, lines.as_mut(), Intake::Records, &stage)
     }
 }
 

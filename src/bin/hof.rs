@@ -6,7 +6,7 @@ use spatial_fetch::force::{Describer, ForceName, FrameName, Pictures, raster::Fu
 
 /// Histogram of forces: where is A, seen from B?
 ///
-/// Reads {"a": SHAPE, "b": SHAPE} and adds "hof". A SHAPE is a GeoJSON Polygon, MultiPolygon or Feature, a grid {"grid":{"rows":["..##"],"cell_m":0.05}} with digits for membership, or a mask {"mask":"a.png","cell_m":0.05}. A "name" is used in the sentence.
+/// Reads `{"a": SHAPE, "b": SHAPE}` and adds "hof". A SHAPE is a GeoJSON Polygon, MultiPolygon or Feature, a grid `{"grid":{"rows":["..##"],"cell_m":0.05}}` with digits for membership, or a mask `{"mask":"a.png","cell_m":0.05}`. A "name" is used in the sentence. With a third shape, "c", it is also told whether A lies between B and C.
 #[derive(Parser)]
 #[command(name = "hof", version, after_help = "Example:\n  hof --format text fixtures/hof/table-and-couch.jsonl")]
 struct Arguments {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
+use spatial_fetch::cli::{self, Common, Exit, Failure, FrameInput, FromLog, Intake, Program};
 use spatial_fetch::perception::Perceiver;
 use spatial_fetch::record::Detection;
 
@@ -18,6 +18,8 @@ struct Arguments {
     #[arg(long, value_name = "DIR")]
     folder: Option<PathBuf>,
     #[command(flatten)]
+    log: FromLog,
+    #[command(flatten)]
     common: Common,
 }
 
@@ -29,10 +31,21 @@ impl Program for Arguments {
     fn schema() -> schemars::Schema {
         schemars::schema_for!(Vec<Detection>)
     }
+    fn reads_standard_input(&self) -> bool {
+        self.log.from.is_none() && self.common.files.is_empty()
+    }
     fn run(self) -> Result<Exit, Failure> {
         let beside = self.common.files.first().and_then(|file| file.parent().map(PathBuf::from));
         let folder = self.folder.or(beside).unwrap_or_default();
-        cli::run_filter(Self::NAME, &self.common, Intake::Records, &Perceiver { folder })
+        let perceiver = Perceiver { folder, ..Perceiver::default() };
+        match FrameInput::open(&self.common.files, &self.log)? {
+            FrameInput::Lines(mut lines) => {
+                cli::run_filter_on(Self::NAME, &self.common, &mut lines, Intake::Records, &perceiver)
+            }
+            FrameInput::Logs(logs) => cli::run_frames(Self::NAME, &self.common, logs, &perceiver, &|frame, record| {
+                perceiver.see(frame, record)
+            }),
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
+use spatial_fetch::cli::{self, Common, Exit, Failure, FromLog, Intake, Program};
 use spatial_fetch::planning::Planner;
 use spatial_fetch::record::Plan;
 use spatial_fetch::world::RoomMap;
@@ -23,6 +23,8 @@ struct Arguments {
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
     #[command(flatten)]
+    log: FromLog,
+    #[command(flatten)]
     common: Common,
 }
 
@@ -34,10 +36,14 @@ impl Program for Arguments {
     fn schema() -> schemars::Schema {
         schemars::schema_for!(Plan)
     }
+    fn reads_standard_input(&self) -> bool {
+        self.log.from.is_none() && self.common.files.is_empty()
+    }
     fn run(self) -> Result<Exit, Failure> {
         let map = self.map.map_or_else(|| Ok(RoomMap::apartment()), |path| RoomMap::load(&path));
         let planner = Planner::new(map.map_err(|error| Failure::Failed(error.to_string()))?);
-        cli::run_filter(Self::NAME, &self.common, Intake::Records, &planner)
+        let mut lines = self.log.lines(&self.common.files, "/fetch/ground")?;
+        cli::run_filter_on(Self::NAME, &self.common, lines.as_mut(), Intake::Records, &planner)
     }
 }
 

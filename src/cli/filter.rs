@@ -4,7 +4,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
-use super::{Common, Diagnostic, Exit, Failure, Format, Inputs, Line, Progress, Reporter, on_interrupt, open_output};
+use super::{
+    Common, Diagnostic, Exit, Failure, Format, Inputs, Line, Progress, Reporter, Source, on_interrupt, open_output,
+};
 use crate::record::{Note, Record, Stage, StageError};
 
 /// Enough lines to keep the cores busy, few enough to answer soon.
@@ -19,29 +21,54 @@ pub enum Intake {
     RecordsOrText,
 }
 
-/// What became of one line.
-struct Outcome {
+/// What became of one line or frame.
+#[derive(Default)]
+pub(super) struct Outcome {
     output: Option<String>,
     error: Option<Diagnostic>,
     warning: Option<Diagnostic>,
 }
 
-/// Runs `stage` over all input lines.
+/// Runs `stage` over all lines of the files, or of standard input.
 pub fn run_filter(program: &'static str, common: &Common, intake: Intake, stage: &dyn Stage) -> Result<Exit, Failure> {
+    run_filter_on(program, common, &mut Inputs::new(&common.files), intake, stage)
+}
+
+/// Runs `stage` over all lines of `lines`.
+pub fn run_filter_on(
+    program: &'static str,
+    common: &Common,
+    lines: &mut dyn Source<Line>,
+    intake: Intake,
+    stage: &dyn Stage,
+) -> Result<Exit, Failure> {
+    run_source(program, common, lines, &|line| process(line, intake, common.format, stage))
+}
+
+/// Does `work` on everything that comes, in order.
+pub(super) fn run_source<T: Sync>(
+    program: &'static str,
+    common: &Common,
+    source: &mut dyn Source<T>,
+    work: &(dyn Fn(&T) -> Outcome + Sync),
+) -> Result<Exit, Failure> {
     let reporter = Reporter::new(program, common);
     let sink = open_output(common)?;
     let closing = sink.clone();
     on_interrupt(move || closing.discard_soon());
     let workers = Workers::new(common.jobs)?;
-    let mut inputs = Inputs::new(&common.files);
     let mut progress = Progress::new(common, None);
     let mut exit = Exit::Done;
     loop {
-        let batch = inputs.next_batch(BATCH_LINES)?;
+        let batch = source.next_batch(BATCH_LINES)?;
+        for lost in source.lost() {
+            reporter.warning(&lost);
+            exit = Exit::Lost;
+        }
         if batch.is_empty() {
             break;
         }
-        let outcomes = workers.map(&batch, |line| process(line, intake, common.format, stage));
+        let outcomes = workers.map(&batch, work);
         let failed = outcomes.iter().position(|o| o.error.is_some()).filter(|_| !common.keep_going);
         let written = &outcomes[..failed.unwrap_or(outcomes.len())];
         sink.write(&joined(written))?;
@@ -81,7 +108,7 @@ fn report(outcomes: &[Outcome], reporter: &Reporter) -> bool {
 }
 
 fn process(line: &Line, intake: Intake, format: Format, stage: &dyn Stage) -> Outcome {
-    let mut outcome = Outcome { output: None, error: None, warning: None };
+    let mut outcome = Outcome::default();
     let text = match std::str::from_utf8(&line.bytes) {
         Ok(text) => text,
         Err(error) => {
@@ -94,7 +121,7 @@ fn process(line: &Line, intake: Intake, format: Format, stage: &dyn Stage) -> Ou
         return outcome;
     }
     match parse(line, text, intake) {
-        Ok(record) => work(line, record, format, stage, &mut outcome),
+        Ok(record) => finish(line, record, format, stage, &|record| stage.run(record), &mut outcome),
         Err(error) => outcome.error = Some(error),
     }
     outcome
@@ -116,9 +143,17 @@ fn parse<'line>(line: &Line, text: &'line str, intake: Intake) -> Result<Record<
     })
 }
 
-fn work(line: &Line, mut record: Record, format: Format, stage: &dyn Stage, outcome: &mut Outcome) {
+/// Does the stage's work on a record and writes it down.
+pub(super) fn finish(
+    line: &Line,
+    mut record: Record,
+    format: Format,
+    stage: &dyn Stage,
+    run: &dyn Fn(&mut Record) -> Result<Note, StageError>,
+    outcome: &mut Outcome,
+) {
     let id = record.id();
-    let result = catch_unwind(AssertUnwindSafe(|| stage.run(&mut record)))
+    let result = catch_unwind(AssertUnwindSafe(|| run(&mut record)))
         .unwrap_or_else(|_| Err(StageError::new("internal error, please report it with this record")));
     let text = match (&result, format) {
         (Ok(_), Format::Text) => stage.text(&record),
@@ -154,10 +189,10 @@ impl Workers {
             .map_err(|e| Failure::Failed(format!("cannot start {jobs} threads: {e}")))
     }
 
-    fn map<T: Send>(&self, lines: &[Line], work: impl Fn(&Line) -> T + Sync) -> Vec<T> {
+    fn map<T: Sync, O: Send>(&self, items: &[T], work: impl Fn(&T) -> O + Sync) -> Vec<O> {
         match &self.pool {
-            Some(pool) if lines.len() > 1 => pool.install(|| lines.par_iter().map(&work).collect()),
-            _ => lines.iter().map(work).collect(),
+            Some(pool) if items.len() > 1 => pool.install(|| items.par_iter().map(&work).collect()),
+            _ => items.iter().map(work).collect(),
         }
     }
 }

@@ -6,7 +6,7 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::Failure;
+use super::{Failure, Source};
 
 /// Large enough that a batch keeps several threads busy, small enough to stay in cache.
 const BUFFER_BYTES: usize = 1 << 18;
@@ -34,11 +34,11 @@ pub fn read_file(path: &Path) -> Result<String, Failure> {
 /// All input files, one after another.
 pub struct Inputs {
     waiting: VecDeque<PathBuf>,
-    current: Option<Source>,
+    current: Option<OpenFile>,
     ordinal: usize,
 }
 
-struct Source {
+struct OpenFile {
     file: Arc<str>,
     number: usize,
     reader: BufReader<Box<dyn Read + Send>>,
@@ -52,22 +52,11 @@ impl Inputs {
         Self { waiting, current: None, ordinal: 0 }
     }
 
-    /// The next lines, at most `limit`: waits for the first, then takes what has already arrived.
-    ///
-    /// Empty at the end of all input. A batch ends where the input pauses, so
-    /// that a person who types a line gets the answer before the next.
-    pub fn next_batch(&mut self, limit: usize) -> Result<Vec<Line>, Failure> {
-        let mut batch = Vec::new();
-        while batch.len() < limit {
-            if !batch.is_empty() && !self.has_line_ready() {
-                break;
-            }
-            match self.next_line()? {
-                Some(line) => batch.push(line),
-                None => break,
-            }
-        }
-        Ok(batch)
+    /// The lines of one reader.
+    pub fn of(name: &str, inner: Box<dyn Read + Send>) -> Self {
+        let reader = BufReader::with_capacity(BUFFER_BYTES, inner);
+        let current = Some(OpenFile { file: name.into(), number: 0, reader });
+        Self { waiting: VecDeque::new(), current, ordinal: 0 }
     }
 
     fn has_line_ready(&self) -> bool {
@@ -78,7 +67,7 @@ impl Inputs {
         loop {
             if self.current.is_none() {
                 let Some(path) = self.waiting.pop_front() else { return Ok(None) };
-                self.current = Some(Source::open(&path)?);
+                self.current = Some(OpenFile::open(&path)?);
             }
             if let Some(source) = &mut self.current
                 && let Some((bytes, terminated)) = source.read_line()?
@@ -92,7 +81,24 @@ impl Inputs {
     }
 }
 
-impl Source {
+impl Source<Line> for Inputs {
+    /// A batch ends where the input pauses, so that a person who types a line gets the answer before the next.
+    fn next_batch(&mut self, limit: usize) -> Result<Vec<Line>, Failure> {
+        let mut batch = Vec::new();
+        while batch.len() < limit {
+            if !batch.is_empty() && !self.has_line_ready() {
+                break;
+            }
+            match self.next_line()? {
+                Some(line) => batch.push(line),
+                None => break,
+            }
+        }
+        Ok(batch)
+    }
+}
+
+impl OpenFile {
     fn open(path: &Path) -> Result<Self, Failure> {
         let (file, inner): (Arc<str>, Box<dyn Read + Send>) = if path == Path::new("-") {
             ("<stdin>".into(), Box::new(io::stdin()))

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Common, Exit, Failure, Format, Inputs, open_output, read_file};
+use super::{Common, Exit, Failure, Format, Inputs, Source, open_output, read_file};
 use crate::evaluation::{Gold, Scores, read_gold, text_tables};
 
 /// Scores with the line that stands over them.

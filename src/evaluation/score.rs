@@ -1,5 +1,6 @@
 //! Scores records against gold, stage by stage.
 
+use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use rayon::prelude::*;
@@ -86,10 +87,13 @@ pub fn score(gold: &[Gold], lines: &[String]) -> Result<Scores, String> {
         let answer = read(&record).map_err(|error| format!("record {}: {error}", i + 1))?;
         if !known.contains(id.as_str()) {
             scores.unknown.push(id);
-        } else if answers.contains_key(&id) {
-            scores.doubled.push(id);
-        } else {
-            answers.insert(id, answer);
+            continue;
+        }
+        match answers.entry(id) {
+            Entry::Occupied(first) => scores.doubled.push(first.key().clone()),
+            Entry::Vacant(place) => {
+                place.insert(answer);
+            }
         }
     }
     // A stage is scored when any record has come that far; records without it then count as wrong.

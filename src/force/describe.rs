@@ -6,7 +6,7 @@
 //! directions. Thresholds and their reasons are in `wording`.
 
 use super::wording::{
-    Assessment, BOTH, Closeness, DIRECTLY, INSIDE, MOSTLY, NO_DIRECTION, PARTLY_SURROUNDED, PLAINLY, SLIGHTLY,
+    Assessment, BETWEEN, BOTH, Closeness, DIRECTLY, INSIDE, MOSTLY, NO_DIRECTION, PARTLY_SURROUNDED, PLAINLY, SLIGHTLY,
     SOMEWHAT, SURROUNDED,
 };
 use super::{DegreeOfTruth, Frame, Relation};
@@ -72,11 +72,16 @@ impl Description {
 
     /// The description as a sentence about two names, which bring their own articles.
     pub fn sentence(&self, a: &str, b: &str) -> String {
-        let mut text = self.statement(a, b);
-        if let Some(first) = text.chars().next() {
-            text.replace_range(..first.len_utf8(), &first.to_uppercase().to_string());
+        capitalized(self.statement(a, b))
+    }
+
+    /// The sentence for an object that lies between two others to the degree `between`: that it does, where it does.
+    pub(super) fn sentence_of_three(&self, between: f64, [a, b, c]: [&str; 3]) -> String {
+        if between < BETWEEN {
+            return self.sentence(a, b);
         }
-        text
+        let hedge = if between >= PLAINLY { "" } else { "more or less " };
+        capitalized(format!("{a} is {hedge}between {b} and {c}."))
     }
 
     fn statement(&self, a: &str, b: &str) -> String {
@@ -134,6 +139,13 @@ impl Description {
             format!("{preposition} {b} and slightly {addition}")
         })
     }
+}
+
+fn capitalized(mut text: String) -> String {
+    if let Some(first) = text.chars().next() {
+        text.replace_range(..first.len_utf8(), &first.to_uppercase().to_string());
+    }
+    text
 }
 
 fn around(relation: &Relation) -> Around {
@@ -203,7 +215,7 @@ mod tests {
 
     #[test]
     fn two_of_the_same_have_no_direction() {
-        let corners = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let cross = Shape::from_ring(corners.iter().map(|[x, y]| [x - y, x + y - 0.5]).collect());
         assert_eq!(said(&cross, &cross), "The box is inside the bed.");
     }

@@ -20,12 +20,13 @@ fn decode(file: BufReader<File>) -> Result<(usize, usize, Vec<u8>), String> {
     let mut decoder = png::Decoder::new(file);
     decoder.set_transformations(Transformations::normalize_to_color8());
     let unreadable = |error: png::DecodingError| format!("not a readable PNG image: {error}");
-    let mut reader = decoder.read_info().map_err(unreadable)?;
-    let (width, height) = (reader.info().width as usize, reader.info().height as usize);
+    let header = decoder.read_header_info().map_err(unreadable)?;
+    let (width, height) = (header.width as usize, header.height as usize);
     // Before memory is taken for it.
     if width.saturating_mul(height) > MOST_CELLS {
         return Err(format!("{width} × {height} pixels are more than {MOST_CELLS}; scale the mask down"));
     }
+    let mut reader = decoder.read_info().map_err(unreadable)?;
     let size = reader.output_buffer_size().ok_or("the image is too large for this machine")?;
     let mut pixels = vec![0; size];
     let frame = reader.next_frame(&mut pixels).map_err(unreadable)?;

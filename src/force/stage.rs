@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use super::input::{Extent, Object, object};
 use super::polygon::{histograms, hybrid};
-use super::raster::{Fuzzy, Pair};
+use super::raster::{Fuzzy, Pair, Raster};
 use super::rose::picture;
+use super::surround::betweenness;
 use super::{Description, Force, ForceName, Frame, FrameName, Histogram, Infinite, Relation};
 use crate::files::write_file;
 use crate::record::{DegreeOfTruth, Hof, HofForce, Note, Record, Stage, StageError};
@@ -50,13 +51,30 @@ impl Describer {
                 Ok(Measured { histograms, relation: Relation::between(a, b) })
             }
             (Extent::Cells(a), Extent::Cells(b)) => {
-                let pair =
-                    Pair::new(a, b, self.fuzzy).map_err(|error| StageError::new(format!("`a`, `b`: {error}")))?;
+                let pair = self.pair(a, b, "b")?;
                 let histograms = pair.histograms(&self.forces_with(|| pair.hybrid()), self.directions);
                 Ok(Measured { histograms, relation: Relation::between_rasters(a, b, &pair) })
             }
-            _ => Err(StageError::new("`a`, `b`: one has polygons and the other cells; give both in one form")),
+            _ => Err(mixed("b")),
         }
+    }
+
+    /// The third object, where there is one, and how far `a` lies between it and `b`.
+    fn third(&self, record: &Record, a: &Object, to_b: &Measured) -> Result<Option<(Object, f64)>, StageError> {
+        if record.raw("c").is_none() {
+            return Ok(None);
+        }
+        let c = object(record, "c")?;
+        let relation = match (&a.extent, &c.extent) {
+            (Extent::Polygons(a), Extent::Polygons(c)) => Relation::between(a, c),
+            (Extent::Cells(a), Extent::Cells(c)) => Relation::between_rasters(a, c, &self.pair(a, c, "c")?),
+            _ => return Err(mixed("c")),
+        };
+        Ok(Some((c, betweenness(&to_b.relation, &relation))))
+    }
+
+    fn pair(&self, a: &Raster, other: &Raster, key: &str) -> Result<Pair, StageError> {
+        Pair::new(a, other, self.fuzzy).map_err(|error| StageError::new(format!("`a`, `{key}`: {error}")))
     }
 
     fn forces_with(&self, hybrid: impl Fn() -> Force) -> Vec<Force> {
@@ -101,6 +119,10 @@ impl Pictures {
     }
 }
 
+fn mixed(key: &str) -> StageError {
+    StageError::new(format!("`a`, `{key}`: one has polygons and the other cells; give both in one form"))
+}
+
 /// "the couch" for an object that has a name.
 fn spoken(object: &Object, otherwise: &str) -> String {
     object.name.as_ref().map_or_else(|| otherwise.to_string(), |name| format!("the {name}"))
@@ -112,6 +134,7 @@ impl Stage for Describer {
         let frame = self.frame_of(record)?;
         let measured = self.measure(&a.extent, &b.extent)?;
         let description = Description::of(&measured.relation, frame);
+        let third = self.third(record, &a, &measured)?;
         let names = frame.directions().map(|words| words.name.to_string());
         let degrees = description.degrees.map(|d| DegreeOfTruth { a: rounded(d.a, 1e6), b: rounded(d.b, 1e6) });
         let hof = Hof {
@@ -120,7 +143,18 @@ impl Stage for Describer {
             degrees: BTreeMap::from_iter(names.into_iter().zip(degrees)),
             main_deg: measured.relation.main_direction().map(|theta| rounded(theta.to_degrees(), 1e2)),
             distance_m: rounded(measured.relation.distance(), 1e6),
-            description: description.sentence(&spoken(&a, "A"), &spoken(&b, "B")),
+            closeness: description.closeness.name().to_string(),
+            inside: rounded(measured.relation.inside(), 1e6),
+            surrounded: rounded(measured.relation.surrounded(), 1e6),
+            surrounds: rounded(measured.relation.surround(), 1e6),
+            between: third.as_ref().map(|(_, between)| rounded(*between, 1e6)),
+            description: match &third {
+                Some((c, between)) => {
+                    let names = [spoken(&a, "A"), spoken(&b, "B"), spoken(c, "C")];
+                    description.sentence_of_three(*between, names.each_ref().map(String::as_str))
+                }
+                None => description.sentence(&spoken(&a, "A"), &spoken(&b, "B")),
+            },
         };
         self.draw(record, [&a, &b], &measured, &hof)?;
         record.set("hof", &hof);
@@ -182,6 +216,22 @@ mod tests {
         assert_eq!(hof.forces["2"], HofForce::Infinite("infinite".to_string()));
         assert!(matches!(hof.forces["hybrid"], HofForce::Values(_)));
         assert_eq!((hof.distance_m, hof.main_deg), (0.0, Some(0.0)));
+    }
+
+    #[test]
+    fn with_a_third_object_it_is_told_what_lies_between() {
+        let square = |name: &str, x: f64| {
+            let y = x + 1.0;
+            format!(r#"{{"name":"{name}","type":"Polygon","coordinates":[[[{x},0],[{y},0],[{y},1],[{x},1],[{x},0]]]}}"#)
+        };
+        let line = |a: f64| {
+            let (a, b, c) = (square("lamp", a), square("bed", 0.0), square("desk", 6.0));
+            format!(r#"{{"a":{a},"b":{b},"c":{c}}}"#)
+        };
+        let inside = run(FrameName::Map, &line(3.0)).expect("described");
+        assert_eq!(inside.description, "The lamp is between the bed and the desk.");
+        let outside = run(FrameName::Map, &line(9.0)).expect("described");
+        assert!(outside.between.is_some_and(|b| b < 0.1) && outside.description.contains("right of the bed"));
     }
 
     #[test]

@@ -53,8 +53,12 @@ fn widest_opening(values: &[f64], cut: f64) -> f64 {
 /// assert!(force::between(&square(0.0), &square(3.0), &square(6.0)) < 0.1);
 /// ```
 pub fn between(a: &Shape, first: &Shape, second: &Shape) -> f64 {
+    betweenness(&Relation::between(a, first), &Relation::between(a, second))
+}
+
+/// How far an object lies between two others, from its relations to them.
+pub(super) fn betweenness(one: &Relation, other: &Relation) -> f64 {
     const DIRECTIONS: usize = 32;
-    let (one, other) = (Relation::between(a, first), Relation::between(a, second));
     let (mut one, mut other) = (Judge::new(one.constant()), Judge::new(other.constant()));
     let both = |i: usize| {
         let theta = TAU * i as f64 / DIRECTIONS as f64;

@@ -40,6 +40,8 @@ pub(super) const SURROUNDED: f64 = 0.6;
 pub(super) const PARTLY_SURROUNDED: f64 = 0.3;
 /// Nearly all of the area: what is left outside is the drawing's tolerance.
 pub(super) const INSIDE: f64 = 0.95;
+/// Both references are opposite within 36° of each other, in the picture above.
+pub(super) const BETWEEN: f64 = 0.6;
 
 /// How well the words do justice to the histograms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,6 +108,17 @@ impl Closeness {
             gap if gap < 1.0 => Self::Close,
             gap if gap < 4.0 => Self::Near,
             _ => Self::Far,
+        }
+    }
+
+    /// The class in a word or two.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Touching => "touching",
+            Self::VeryClose => "very close",
+            Self::Close => "close",
+            Self::Near => "near",
+            Self::Far => "far",
         }
     }
 

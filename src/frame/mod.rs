@@ -3,6 +3,10 @@
 //! The type that cameras, recordings and perception share; nothing here knows
 //! where a frame comes from or what is in it.
 
+mod decode;
+
+pub use decode::{Picture, decode_color, decode_depth};
+
 /// Focal lengths and principal point of a pinhole camera, pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intrinsics {

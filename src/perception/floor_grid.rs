@@ -1,6 +1,6 @@
 //! Depth pixels projected onto a grid over the floor: how high each cell reaches, and at which heights it is filled.
 
-use super::frame::{DepthPicture, FrameFiles};
+use crate::frame::RgbdFrame;
 use crate::geometry::{Vec2, vec2};
 
 /// Side of a cell, metres.
@@ -40,8 +40,8 @@ pub struct FloorGrid {
 }
 
 /// Projects a depth picture; nothing when no pixel lies between floor and ceiling.
-pub fn project(frame: &FrameFiles, depth: &DepthPicture) -> Option<FloorGrid> {
-    let points = points(frame, depth);
+pub fn project(frame: &RgbdFrame) -> Option<FloorGrid> {
+    let points = points(frame);
     let start = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
     let (low, high) = points.iter().fold(start, |(low, high), (p, _)| (low.inf(p), high.sup(p)));
     if points.is_empty() {
@@ -61,17 +61,17 @@ pub fn project(frame: &FrameFiles, depth: &DepthPicture) -> Option<FloorGrid> {
 }
 
 /// Place on the floor and height of each pixel between floor and ceiling.
-fn points(frame: &FrameFiles, depth: &DepthPicture) -> Vec<(Vec2, f64)> {
+fn points(frame: &RgbdFrame) -> Vec<(Vec2, f64)> {
     let [rx, ry, rz, _] = frame.world_from_camera;
-    let mut points = Vec::with_capacity(depth.values.len() / (STRIDE * STRIDE));
-    for row in (0..depth.height).step_by(STRIDE) {
-        let down = (row as f64 - frame.cy) / frame.fy;
-        for column in (0..depth.width).step_by(STRIDE) {
-            let z = f64::from(depth.values[row * depth.width + column]) * frame.depth_unit_m;
+    let mut points = Vec::with_capacity(frame.depth.len() / (STRIDE * STRIDE));
+    for row in (0..frame.height).step_by(STRIDE) {
+        let down = (row as f64 - frame.intrinsics.cy) / frame.intrinsics.fy;
+        for column in (0..frame.width).step_by(STRIDE) {
+            let z = f64::from(frame.depth[row * frame.width + column]) * frame.depth_unit_m;
             if z <= 0.0 || z > FARTHEST_M {
                 continue;
             }
-            let (x, y) = ((column as f64 - frame.cx) / frame.fx * z, down * z);
+            let (x, y) = ((column as f64 - frame.intrinsics.cx) / frame.intrinsics.fx * z, down * z);
             let height = rz[0] * x + rz[1] * y + rz[2] * z + rz[3];
             if (FLOOR_M..CEILING_M).contains(&height) {
                 let place = vec2(rx[0] * x + rx[1] * y + rx[2] * z + rx[3], ry[0] * x + ry[1] * y + ry[2] * z + ry[3]);

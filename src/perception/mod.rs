@@ -4,14 +4,19 @@
 //! the one place here that may look at the scene.
 
 mod classify;
+mod detector;
 mod floor_grid;
-mod frame;
+mod frame_files;
+mod picture_files;
 mod rectangle;
 mod stage;
 pub mod truth;
 
+pub use detector::Detector;
+pub use frame_files::{FrameError, FrameFiles, check};
 pub use stage::Perceiver;
 
+use crate::frame::RgbdFrame;
 use crate::geometry::Pose;
 use crate::record::Detection;
 
@@ -19,6 +24,11 @@ use crate::record::Detection;
 pub trait Eyes {
     /// What is seen now; `believed` is where the robot believes it stands, and the frame of the answer.
     fn look(&mut self, believed: Pose) -> View;
+
+    /// The camera's frame behind the last look; none for eyes without a camera.
+    fn frame(&self) -> Option<&RgbdFrame> {
+        None
+    }
 }
 
 /// One look.

@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
-use super::classify::classify;
-use super::floor_grid::project;
-use super::frame::{FrameError, FrameFiles};
-use crate::geometry::vec2;
+use super::frame_files::check;
+use super::{Detector, FrameFiles};
+use crate::frame::RgbdFrame;
 use crate::record::{Detection, Note, Record, Stage, StageError};
 
 /// Finds furniture in the depth pictures that records name.
@@ -13,15 +12,18 @@ use crate::record::{Detection, Note, Record, Stage, StageError};
 pub struct Perceiver {
     /// Where relative paths begin.
     pub folder: PathBuf,
+    /// What finds it.
+    pub detector: Detector,
 }
 
 impl Perceiver {
-    fn detections(&self, frame: &FrameFiles) -> Result<Vec<Detection>, FrameError> {
-        frame.check()?;
-        let depth = frame.load_depth(&self.folder)?;
-        let camera = vec2(frame.world_from_camera[0][3], frame.world_from_camera[1][3]);
-        let Some(grid) = project(frame, &depth) else { return Ok(Vec::new()) };
-        Ok(grid.components().iter().filter_map(|cells| classify(&grid, cells, camera)).map(rounded).collect())
+    /// Adds what a frame shows to its record.
+    pub fn see(&self, frame: &RgbdFrame, record: &mut Record) -> Result<Note, StageError> {
+        check(frame).map_err(|error| StageError::new(error.to_string()))?;
+        let view = self.detector.detect(frame, None);
+        let detections: Vec<Detection> = view.furniture.into_iter().map(rounded).collect();
+        record.set("detections", &detections);
+        Ok(Note::Done)
     }
 }
 
@@ -45,9 +47,8 @@ impl Stage for Perceiver {
             let what = crate::record::message_without_position(&error);
             StageError::new(format!("{what}; a frame needs depth, fx, fy, cx, cy, depth_unit_m and T_world_cam"))
         })?;
-        let detections = self.detections(&frame).map_err(|error| StageError::new(error.to_string()))?;
-        record.set("detections", &detections);
-        Ok(Note::Done)
+        let frame = frame.load(&self.folder).map_err(|error| StageError::new(error.to_string()))?;
+        self.see(&frame, record)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {

@@ -18,6 +18,17 @@ pub struct Hof {
     pub main_deg: Option<f64>,
     /// Metres between the two, zero when they touch.
     pub distance_m: f64,
+    /// The gap in a word: `touching`, `very close`, `close`, `near` or `far`, by the size of the smaller object.
+    pub closeness: String,
+    /// Share of the first object's area that lies inside the second, 0 to 1.
+    pub inside: f64,
+    /// How far the second object surrounds the first, 0 to 1.
+    pub surrounded: f64,
+    /// How far the first object surrounds the second, 0 to 1.
+    pub surrounds: f64,
+    /// How far the first object lies between the second and the third, 0 to 1; only where a third, `c`, is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub between: Option<f64>,
     /// One English sentence.
     pub description: String,
 }

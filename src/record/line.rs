@@ -45,6 +45,17 @@ impl<'line> Record<'line> {
         record
     }
 
+    /// The line it was parsed from, byte for byte; empty when it was not.
+    pub fn line(&self) -> &'line str {
+        self.line
+    }
+
+    /// The same record without some of its keys: as it was before the stages that added them.
+    pub fn without(&self, keys: &[&str]) -> Self {
+        let fields = self.fields.iter().filter(|(key, _)| !keys.contains(&key.as_ref()));
+        Self { line: self.line, fields: fields.cloned().collect() }
+    }
+
     /// The raw JSON under `key`.
     pub fn raw(&self, key: &str) -> Option<&RawValue> {
         self.fields.iter().find(|(k, _)| k == key).map(|(_, v)| v.as_ref())
@@ -163,6 +174,13 @@ mod tests {
     fn a_key_that_stands_twice_is_refused_by_name() {
         let error = Record::parse(r#"{"id":1,"id":2}"#).expect_err("a duplicate key");
         assert!(error.to_string().contains("`id` stands twice"), "{error}");
+    }
+
+    #[test]
+    fn without_the_keys_of_later_stages_a_record_is_as_it_was() {
+        let record = Record::parse(r#"{"id":"1","mine":1.0,"plan":{},"trial":{}}"#).expect("valid JSON");
+        let before = record.without(&["plan", "trial"]);
+        assert_eq!(serde_json::to_string(&before).expect("serializes"), r#"{"id":"1","mine":1.0}"#);
     }
 
     #[test]

@@ -3,9 +3,40 @@
 //! Spatial data as Foxglove's protobuf schemas, our own records as JSON, one
 //! line one message, byte for byte. Times are the trial's own seconds from
 //! zero, so that the same trial gives the same file.
+//!
+//! Frames come out of logs of any robot: ROS 2, ROS 1 and Foxglove messages.
+//! What is damaged, missing or not read is named, and everything else read.
 
-mod read;
+mod assembly;
+mod chunk;
+mod error;
+mod follow;
+mod frame_reader;
+mod frame_writer;
+mod log_reader;
+mod log_writer;
+mod losses;
+mod mount;
+mod pictures;
+mod record_reader;
+mod record_schema;
+mod roles;
+mod sensed;
+mod shapes;
+mod time;
+mod timed_frame;
+mod transform_tree;
 mod trial_log;
+mod window;
 
-pub use read::{LogError, records};
-pub use trial_log::{Piece, TrialLog};
+pub use error::{LogError, Loss};
+pub use follow::Follow;
+pub use frame_reader::{FrameOptions, FrameReader};
+pub use frame_writer::FrameWriter;
+pub use log_reader::LogReader;
+pub use record_reader::{RecordReader, records};
+pub use shapes::Piece;
+pub use time::nanoseconds;
+pub use timed_frame::TimedFrame;
+pub use trial_log::TrialLog;
+pub use window::Window;

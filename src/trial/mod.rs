@@ -7,6 +7,7 @@
 mod home;
 mod judge;
 mod outputs;
+mod recorder;
 mod run;
 mod settings;
 mod stage;

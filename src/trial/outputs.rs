@@ -3,10 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{Home, Run};
-use crate::behavior::{Furniture, Watcher};
 use crate::drawing::{Outline, Plot};
-use crate::geometry::Pose;
-use crate::recording::{Piece, TrialLog};
 use crate::world::camera::{Camera, SolidScene, render};
 
 /// Where the files go; `{id}` in a name stands for the record's id.
@@ -59,54 +56,6 @@ pub(super) fn file_name(id: &str) -> String {
     let safe: String =
         id.chars().map(|c| if c.is_alphanumeric() || matches!(c, '-' | '_') { c } else { '_' }).collect();
     if safe.is_empty() { "record".to_string() } else { safe }
-}
-
-/// A watcher that writes the log.
-pub(super) struct Recorder {
-    log: TrialLog,
-}
-
-impl Recorder {
-    pub(super) fn new(path: &Path, force: bool, home: &Home) -> Result<Self, String> {
-        let mut log = TrialLog::create(path, force)?;
-        log.walls(&home.map.walls(), home.map.wall_height);
-        let outlines: Vec<_> = home.scene.furniture.iter().map(|item| (item, item.footprint())).collect();
-        let pieces: Vec<Piece> = outlines
-            .iter()
-            .map(|(item, outline)| Piece {
-                label: item.id.clone(),
-                corners: outline.corners(),
-                height: item.size().height,
-            })
-            .collect();
-        log.truth(&pieces);
-        Ok(Self { log })
-    }
-
-    pub(super) fn finish(mut self, run: &Run, picture: Vec<u8>, record: &str) -> Result<(), String> {
-        let end = run.trial.duration_s.0;
-        self.log.picture(end, picture);
-        self.log.record(end, record);
-        self.log.finish(end)
-    }
-}
-
-impl Watcher for Recorder {
-    fn pose(&mut self, time_s: f64, pose: Pose) {
-        self.log.pose(time_s, pose);
-    }
-
-    fn said(&mut self, time_s: f64, text: &str) {
-        self.log.said(time_s, text);
-    }
-
-    fn furniture(&mut self, time_s: f64, furniture: &[Furniture]) {
-        let pieces: Vec<Piece> = furniture
-            .iter()
-            .map(|f| Piece { label: f.label(), corners: f.footprint.corners(), height: f.detection.height })
-            .collect();
-        self.log.believed(time_s, &pieces);
-    }
 }
 
 #[cfg(test)]

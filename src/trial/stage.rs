@@ -1,10 +1,12 @@
 //! `drive` as a stage of the pipeline.
 
-use super::outputs::{Outputs, Recorder, file_name};
+use super::outputs::{Outputs, file_name};
+use super::recorder::Recorder;
 use super::{Home, Run, Settings, run, stream_of};
 use crate::behavior::Silent;
 use crate::files::{FileError, write_file};
 use crate::record::{Note, Plan, Record, Stage, StageError, Trial};
+use crate::recording::LogError;
 
 /// Runs the plan of each record in a home.
 #[derive(Clone, Debug)]
@@ -26,12 +28,14 @@ impl Driver {
             return Ok(());
         };
         let path = Outputs::named(path, id);
-        let mut recorder = Recorder::new(&path, self.outputs.force, &self.home).map_err(StageError::new)?;
+        let failed = |error: LogError| StageError::new(error.to_string());
+        let force = self.outputs.force;
+        let mut recorder = Recorder::new(&path, force, &self.home, &self.settings, record).map_err(failed)?;
         let mut run = run(&self.home, plan, &self.settings, stream_of(id), &mut recorder);
         self.leave(&mut run, record, id)?;
         record.set("trial", &run.trial);
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
-        recorder.finish(&run, Outputs::take_picture(&self.home, &run), &line).map_err(StageError::new)
+        recorder.finish(&run, Outputs::take_picture(&self.home, &run), &line).map_err(failed)
     }
 
     /// Writes the plot and the picture.

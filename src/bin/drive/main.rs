@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
+use spatial_fetch::cli::{self, Common, Exit, Failure, FromLog, Intake, Program};
 use spatial_fetch::record::Trial;
 use spatial_fetch::trial::{Driver, Home, Perception, Settings};
 
@@ -35,6 +35,8 @@ struct Arguments {
     #[command(flatten)]
     outputs: outputs::Arguments,
     #[command(flatten)]
+    log: FromLog,
+    #[command(flatten)]
     common: Common,
 }
 
@@ -46,13 +48,23 @@ impl Program for Arguments {
     fn schema() -> schemars::Schema {
         schemars::schema_for!(Trial)
     }
+    fn reads_standard_input(&self) -> bool {
+        self.log.from.is_none() && self.common.files.is_empty()
+    }
     fn run(self) -> Result<Exit, Failure> {
         let home =
             Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
         let settings =
             Settings { options: self.executive.options(), perception: self.perception, seed: self.common.seed };
         let outputs = self.outputs.outputs(self.common.force);
-        cli::run_filter(Self::NAME, &self.common, Intake::Records, &Driver { home, settings, outputs })
+        let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
+        cli::run_filter_on(
+            Self::NAME,
+            &self.common,
+            lines.as_mut(),
+            Intake::Records,
+            &Driver { home, settings, outputs },
+        )
     }
 }
 

@@ -57,7 +57,7 @@ pub(super) fn finite_histograms(a: &Shape, b: &Shape, forces: &[Force], directio
     let mut sweep = Sweep::default();
     let mut values = vec![vec![0.0; directions]; forces.len()];
     // A sweep yields both directions of its axis.
-    let (swept, half) = if directions % 2 == 0 { (directions / 2, directions / 2) } else { (directions, 0) };
+    let (swept, half) = if directions.is_multiple_of(2) { (directions / 2, directions / 2) } else { (directions, 0) };
     for i in 0..swept {
         let (sin, cos) = direction(i, directions);
         if !resultants(&mut a, &mut b, &mut sweep, &mut totals, (sin, cos)) {

@@ -83,7 +83,7 @@ fn transposed(plane: &[Complex<f64>], width: usize) -> Plane {
 fn smooth(at_least: usize) -> usize {
     let is_smooth = |mut n: usize| {
         for factor in [2, 3, 5] {
-            while n % factor == 0 {
+            while n.is_multiple_of(factor) {
                 n /= factor;
             }
         }

@@ -211,9 +211,9 @@ fn constant(pieces: &[Pieces; 2], count: usize) -> f64 {
     let mut sums = [0.0; LANES];
     for p in pieces {
         for start in (0..count.next_multiple_of(LANES)).step_by(LANES) {
-            for i in 0..LANES {
+            for (i, sum) in sums.iter_mut().enumerate() {
                 let (half, q0, q2) = (p.half[start + i], p.q[0][start + i], p.q[2][start + i]);
-                sums[i] += 2.0 * half * (q0 + q2 * (half * half * (1.0 / 3.0)));
+                *sum += 2.0 * half * (q0 + q2 * (half * half * (1.0 / 3.0)));
             }
         }
     }
@@ -226,7 +226,7 @@ fn gravitational(pieces: &[Pieces; 2], count: usize) -> f64 {
     let mut sums = [0.0; LANES];
     for p in pieces {
         for start in (0..count.next_multiple_of(LANES)).step_by(LANES) {
-            for i in 0..LANES {
+            for (i, sum) in sums.iter_mut().enumerate() {
                 let (middle, half) = (p.middle[start + i], p.half[start + i]);
                 let inverse = 1.0 / middle;
                 let x = half * inverse;
@@ -235,7 +235,7 @@ fn gravitational(pieces: &[Pieces; 2], count: usize) -> f64 {
                 let first = z * (2.0 / 3.0 + z * (4.0 / 5.0 + z * (6.0 / 7.0 + z * (8.0 / 9.0 + z * (10.0 / 11.0)))));
                 let second = z * (1.0 / 3.0 + z * (3.0 / 5.0 + z * (5.0 / 7.0 + z * (7.0 / 9.0 + z * (9.0 / 11.0)))));
                 let (q0, q1, q2) = (p.q[0][start + i], p.q[1][start + i], p.q[2][start + i]);
-                sums[i] += 2.0 * x * (q0 * whole * inverse - q1 * first + q2 * second * middle);
+                *sum += 2.0 * x * (q0 * whole * inverse - q1 * first + q2 * second * middle);
             }
         }
     }

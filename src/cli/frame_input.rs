@@ -1,0 +1,170 @@
+//! Frames of recorded logs through a stage that sees.
+
+use std::collections::VecDeque;
+use std::fs::File;
+use std::io::{self, Cursor, Read};
+use std::path::{Path, PathBuf};
+
+use super::filter::{Outcome, finish, run_source};
+use super::log_input::{Bytes, open_log};
+use super::{Common, Diagnostic, Exit, Failure, FromLog, Inputs, Line, Source};
+use crate::frame::RgbdFrame;
+use crate::record::{Note, Record, Stage, StageError};
+use crate::recording::{FrameOptions, FrameReader, TimedFrame};
+
+/// Pictures are large: only as many at a time as keep the cores busy.
+const BATCH_FRAMES: usize = 8;
+
+/// What a seeing stage adds to the record of one frame.
+pub type See<'a> = dyn Fn(&RgbdFrame, &mut Record) -> Result<Note, StageError> + Sync + 'a;
+
+/// What there is to read: records that name frames, or logs that hold them.
+pub enum FrameInput {
+    /// JSON lines.
+    Lines(Inputs),
+    /// MCAP logs.
+    Logs(FrameLogs),
+}
+
+impl FrameInput {
+    /// Looks at the first bytes: an MCAP log is read as one, wherever it comes from.
+    pub fn open(files: &[PathBuf], options: &FromLog) -> Result<Self, Failure> {
+        let logs = |paths: Vec<PathBuf>| FrameLogs::new(paths, options.clone());
+        match (&options.from, files) {
+            (Some(path), _) => Ok(Self::Logs(logs(vec![path.clone()]))),
+            (None, [first, ..]) if first != Path::new("-") => {
+                let is_log = File::open(first).is_ok_and(|file| is_regular(&file) && begins_as_log(file).0);
+                if is_log { Ok(Self::Logs(logs(files.to_vec()))) } else { Ok(Self::Lines(Inputs::new(files))) }
+            }
+            _ => {
+                let (is_log, begin) = begins_as_log(io::stdin());
+                let stdin: Bytes = Box::new(Cursor::new(begin).chain(io::stdin()));
+                if !is_log {
+                    return Ok(Self::Lines(Inputs::of("<stdin>", stdin)));
+                }
+                let mut logs = logs(Vec::new());
+                logs.begin(stdin, "<stdin>".to_string(), true)?;
+                Ok(Self::Logs(logs))
+            }
+        }
+    }
+}
+
+fn is_regular(file: &File) -> bool {
+    file.metadata().is_ok_and(|found| found.is_file())
+}
+
+/// Whether the source begins as an MCAP log, and the bytes taken to tell.
+fn begins_as_log(mut source: impl Read) -> (bool, Vec<u8>) {
+    let mut begin = Vec::new();
+    // A source that cannot be read says so when it is read in earnest.
+    let _ = source.by_ref().take(mcap::MAGIC.len() as u64).read_to_end(&mut begin);
+    (begin == mcap::MAGIC, begin)
+}
+
+/// The frames of one log after another.
+pub struct FrameLogs {
+    waiting: VecDeque<PathBuf>,
+    options: FromLog,
+    current: Option<Current>,
+    count: usize,
+    lost: Vec<Diagnostic>,
+}
+
+struct Current {
+    frames: FrameReader<Bytes>,
+    name: String,
+    is_pipe: bool,
+}
+
+/// A frame and where it came from.
+pub struct FrameItem {
+    /// The log's name.
+    pub file: String,
+    /// Counted over all logs, 1-based.
+    pub ordinal: usize,
+    /// The frame.
+    pub timed: TimedFrame,
+}
+
+impl FrameLogs {
+    fn new(paths: Vec<PathBuf>, options: FromLog) -> Self {
+        Self { waiting: paths.into(), options, current: None, count: 0, lost: Vec::new() }
+    }
+
+    fn begin(&mut self, bytes: Bytes, name: String, is_pipe: bool) -> Result<(), Failure> {
+        let (topics, window, recover) = (self.options.topic.clone(), self.options.window(), self.options.recover);
+        let frames = FrameReader::new(bytes, &name, FrameOptions { topics, window, recover });
+        let frames = frames.map_err(|error| Failure::Failed(error.to_string()))?;
+        self.current = Some(Current { frames, name, is_pipe });
+        Ok(())
+    }
+
+    fn next_frame(&mut self) -> Result<Option<FrameItem>, Failure> {
+        loop {
+            let Some(current) = &mut self.current else {
+                let Some(path) = self.waiting.pop_front() else { return Ok(None) };
+                let (bytes, name, is_pipe) = open_log(&path)?;
+                self.begin(bytes, name, is_pipe)?;
+                continue;
+            };
+            match current.frames.next() {
+                None => self.current = None,
+                Some(Err(loss)) => {
+                    self.lost.push(Diagnostic { place: current.name.clone(), id: None, message: loss.to_string() });
+                }
+                Some(Ok(timed)) => {
+                    self.count += 1;
+                    return Ok(Some(FrameItem { file: current.name.clone(), ordinal: self.count, timed }));
+                }
+            }
+        }
+    }
+}
+
+impl Source<FrameItem> for FrameLogs {
+    fn next_batch(&mut self, limit: usize) -> Result<Vec<FrameItem>, Failure> {
+        let mut batch = Vec::new();
+        while batch.len() < limit.min(BATCH_FRAMES) {
+            if !batch.is_empty() && self.current.as_ref().is_some_and(|current| current.is_pipe) {
+                break;
+            }
+            match self.next_frame()? {
+                Some(item) => batch.push(item),
+                None => break,
+            }
+        }
+        Ok(batch)
+    }
+
+    fn lost(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.lost)
+    }
+}
+
+/// Runs a seeing stage over all frames of the logs: one record a frame, with its times and the robot's pose.
+pub fn run_frames(
+    program: &'static str,
+    common: &Common,
+    mut logs: FrameLogs,
+    stage: &dyn Stage,
+    see: &See,
+) -> Result<Exit, Failure> {
+    run_source(program, common, &mut logs, &|item: &FrameItem| {
+        let mut record = Record::default();
+        record.set("id", &item.ordinal.to_string());
+        record.set("stamp_ns", &item.timed.stamp_ns);
+        record.set("log_ns", &item.timed.log_ns);
+        record.set("robot_pose", &item.timed.robot);
+        let place = Line {
+            file: item.file.as_str().into(),
+            number: item.ordinal,
+            ordinal: item.ordinal,
+            bytes: Vec::new(),
+            terminated: true,
+        };
+        let mut outcome = Outcome::default();
+        finish(&place, record, common.format, stage, &|record| see(&item.timed.frame, record), &mut outcome);
+        outcome
+    })
+}

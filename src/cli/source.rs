@@ -1,0 +1,16 @@
+//! Where a filter's work comes from: lines, records of a log, frames.
+
+use super::{Diagnostic, Failure};
+
+/// Gives out work in batches, and tells what was lost on the way.
+pub trait Source<T> {
+    /// The next pieces of work, at most `limit`: waits for the first, then takes what has already arrived.
+    ///
+    /// Empty at the end.
+    fn next_batch(&mut self, limit: usize) -> Result<Vec<T>, Failure>;
+
+    /// What was lost or skipped since the last call.
+    fn lost(&mut self) -> Vec<Diagnostic> {
+        Vec::new()
+    }
+}

@@ -1,0 +1,182 @@
+//! A frame as a record names it: picture files, intrinsics, and where the camera stood.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::picture_files::{load_color, load_depth};
+use crate::frame::{Intrinsics, RgbdFrame};
+
+/// A frame whose pictures lie in files.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct FrameFiles {
+    /// Colour picture, PNG or JPEG, registered to the depth; without it colour tells nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rgb: Option<PathBuf>,
+    /// Depth picture, 16-bit grey PNG.
+    pub depth: PathBuf,
+    /// Pixels across, checked against the pictures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<usize>,
+    /// Pixels down, checked against the pictures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<usize>,
+    /// Focal length across, pixels.
+    pub fx: f64,
+    /// Focal length down, pixels.
+    pub fy: f64,
+    /// Principal point, column.
+    pub cx: f64,
+    /// Principal point, row.
+    pub cy: f64,
+    /// Metres per unit of depth.
+    pub depth_unit_m: f64,
+    /// Camera optical frame (x right, y down, z ahead) to world (z up), 4 × 4 by rows.
+    #[serde(rename = "T_world_cam")]
+    pub world_from_camera: [[f64; 4]; 4],
+}
+
+/// Why a frame cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum FrameError {
+    /// The file cannot be read.
+    #[error("{0}: {1}")]
+    Unreadable(String, String),
+    /// The pictures and the record do not belong together.
+    #[error("{0} is {1} × {2} pixels, {3} {4} × {5}; depth must be registered to the colour picture")]
+    Sizes(String, usize, usize, &'static str, usize, usize),
+    /// The numbers cannot be.
+    #[error("{0}")]
+    Wrong(String),
+}
+
+impl FrameFiles {
+    /// Reads the pictures and checks that they fit each other; relative paths are taken from `folder`.
+    pub fn load(&self, folder: &Path) -> Result<RgbdFrame, FrameError> {
+        let path = folder.join(&self.depth);
+        let (width, height, depth) = load_depth(&path)?;
+        let size = |name: &Path, w, h, other, to: (usize, usize)| {
+            let wrong = || FrameError::Sizes(name.display().to_string(), w, h, other, to.0, to.1);
+            if (w, h) == to { Ok(()) } else { Err(wrong()) }
+        };
+        let said = (self.width.unwrap_or(width), self.height.unwrap_or(height));
+        size(&path, width, height, "the record says", said)?;
+        let mut color = Vec::new();
+        if let Some(rgb) = &self.rgb {
+            let path = folder.join(rgb);
+            let (w, h, pixels) = load_color(&path)?;
+            size(&path, w, h, "the depth", (width, height))?;
+            color = pixels;
+        }
+        let frame = RgbdFrame {
+            width,
+            height,
+            color,
+            depth,
+            depth_unit_m: self.depth_unit_m,
+            intrinsics: Intrinsics { fx: self.fx, fy: self.fy, cx: self.cx, cy: self.cy },
+            world_from_camera: self.world_from_camera,
+        };
+        Ok(frame)
+    }
+}
+
+/// Checks the numbers of a frame from any source.
+///
+/// A wrong scale would make everything one plane, and a pose that is none
+/// would put furniture into the walls.
+pub fn check(frame: &RgbdFrame) -> Result<(), FrameError> {
+    let wrong = |what: String| Err(FrameError::Wrong(what));
+    if !(1e-5..=1.0).contains(&frame.depth_unit_m) {
+        return wrong("`depth_unit_m` must be metres per unit, 0.001 for millimetres".to_string());
+    }
+    let Intrinsics { fx, fy, cx, cy } = frame.intrinsics;
+    let focal = |f: f64, pixels: usize| (0.2 * pixels as f64..20.0 * pixels as f64).contains(&f);
+    if !(focal(fx, frame.width) && focal(fy, frame.height)) {
+        return wrong(format!("`fx` {fx} and `fy` {fy} must be focal lengths in pixels; a Kinect's are about 525"));
+    }
+    if !((0.0..frame.width as f64).contains(&cx) && (0.0..frame.height as f64).contains(&cy)) {
+        return wrong(format!("`cx` {cx} and `cy` {cy} must be the principal point in pixels, near the middle"));
+    }
+    if frame.depth.len() != frame.width * frame.height
+        || !(frame.color.is_empty() || frame.color.len() == frame.depth.len())
+    {
+        return wrong(format!("the pictures do not hold {} × {} pixels", frame.width, frame.height));
+    }
+    check_pose(&frame.world_from_camera)?;
+    check_scale(frame)
+}
+
+fn check_pose(m: &[[f64; 4]; 4]) -> Result<(), FrameError> {
+    let wrong = |what: &str| Err(FrameError::Wrong(format!("`T_world_cam` {what}")));
+    if !m.iter().flatten().all(|v| v.is_finite()) {
+        return wrong("holds something that is not a number");
+    }
+    let dot = |i: usize, j: usize| (0..3).map(|k| m[i][k] * m[j][k]).sum::<f64>();
+    let rotation = (0..3).all(|i| (0..3).all(|j| (dot(i, j) - f64::from(u8::from(i == j))).abs() < 0.02));
+    if !rotation || m[3] != [0.0, 0.0, 0.0, 1.0] {
+        return wrong("is no rotation and translation, 4 × 4 by rows");
+    }
+    if !(0.05..5.0).contains(&m[2][3]) {
+        return wrong("puts the camera below the floor or far above it; the world's floor is z = 0, in metres");
+    }
+    Ok(())
+}
+
+/// Half of what a room camera sees lies between 0.2 and 15 metres; a depth in wrong units does not.
+fn check_scale(frame: &RgbdFrame) -> Result<(), FrameError> {
+    let mut seen: Vec<u16> = frame.depth.iter().copied().step_by(97).filter(|depth| *depth > 0).collect();
+    if seen.len() < 16 {
+        return Ok(());
+    }
+    let middle = seen.len() / 2;
+    let median = f64::from(*seen.select_nth_unstable(middle).1) * frame.depth_unit_m;
+    if (0.2..15.0).contains(&median) {
+        return Ok(());
+    }
+    let unit = [0.001, 0.0002, 0.0001, 0.01].into_iter().find(|unit| {
+        let m = median / frame.depth_unit_m * unit;
+        (0.5..6.0).contains(&m)
+    });
+    let guess = unit.map_or(String::new(), |unit| format!("; perhaps `depth_unit_m` is {unit}"));
+    Err(FrameError::Wrong(format!("half of the depths are below {median:.4} m, which no room is{guess}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(depth: u16, depth_unit_m: f64) -> RgbdFrame {
+        RgbdFrame {
+            width: 64,
+            height: 48,
+            color: Vec::new(),
+            depth: vec![depth; 64 * 48],
+            depth_unit_m,
+            intrinsics: Intrinsics { fx: 52.5, fy: 52.5, cx: 31.5, cy: 23.5 },
+            world_from_camera: [
+                [0.0, 0.0, 1.0, 0.0],
+                [-1.0, 0.0, 0.0, 0.0],
+                [0.0, -1.0, 0.0, 1.2],
+                [0.0, 0.0, 0.0, 1.0],
+            ],
+        }
+    }
+
+    #[test]
+    fn a_wrong_unit_of_depth_is_refused_with_the_likely_one() {
+        assert!(check(&frame(2500, 0.001)).is_ok());
+        let error = check(&frame(2500, 1.0)).expect_err("2500 m");
+        assert!(error.to_string().contains("perhaps `depth_unit_m` is 0.001"), "{error}");
+    }
+
+    #[test]
+    fn focal_lengths_in_metres_and_a_turned_matrix_are_refused() {
+        let mut focal = frame(2500, 0.001);
+        focal.intrinsics.fx = 0.525;
+        assert!(check(&focal).expect_err("too short").to_string().contains("focal lengths in pixels"));
+        let mut pose = frame(2500, 0.001);
+        pose.world_from_camera[3] = [1.0, 2.0, 3.0, 1.0];
+        assert!(check(&pose).expect_err("by columns").to_string().contains("4 × 4 by rows"));
+    }
+}

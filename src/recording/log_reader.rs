@@ -1,0 +1,223 @@
+//! Messages out of an MCAP log, from a file, a pipe or a log still being written.
+//!
+//! Records are framed here, so that a damaged chunk is named by its place and
+//! the next one still read; chunks and everything else are the mcap crate's
+//! work (format: mcap.dev/spec).
+
+use std::collections::VecDeque;
+use std::io::{self, Read};
+
+use mcap::Message;
+use mcap::read::{ChannelAccumulator, parse_record};
+use mcap::records::{Record, op};
+
+use super::chunk::unpack;
+use super::{LogError, Loss};
+
+/// No record is longer than this: a length beyond it is damage, bytes.
+pub(super) const LONGEST_RECORD: u64 = 1 << 28;
+
+/// The messages of a log in its order, those of a chunk by their time, with everything that was lost on the way.
+///
+/// Checksums are checked before a message is given out. A log that is cut or
+/// damaged gives everything its checksums vouch for; with `recover` also what
+/// can be salvaged of damaged chunks.
+pub struct LogReader<R> {
+    source: R,
+    recover: bool,
+    at_byte: u64,
+    checksum: crc32fast::Hasher,
+    links: ChannelAccumulator<'static>,
+    ready: VecDeque<Result<Message<'static>, Loss>>,
+    whole: bool,
+    state: State,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum State {
+    Data,
+    /// What follows is index; it is read to the end so that the writer of a pipe is not cut off.
+    Index,
+    Ended,
+}
+
+impl<R: Read> LogReader<R> {
+    /// Reads from `source`; `name` is what errors call it.
+    pub fn new(mut source: R, name: &str, recover: bool) -> Result<Self, LogError> {
+        let mut magic = [0; 8];
+        match source.read_exact(&mut magic) {
+            Err(error) if error.kind() != io::ErrorKind::UnexpectedEof => {
+                return Err(LogError::System(name.to_string(), error));
+            }
+            _ if magic != mcap::MAGIC => return Err(LogError::NotMcap(name.to_string())),
+            _ => {}
+        }
+        let mut checksum = crc32fast::Hasher::new();
+        checksum.update(&magic);
+        Ok(Self {
+            source,
+            recover,
+            at_byte: magic.len() as u64,
+            checksum,
+            links: ChannelAccumulator::default(),
+            ready: VecDeque::new(),
+            whole: true,
+            state: State::Data,
+        })
+    }
+
+    /// Reads one record and makes its messages ready.
+    fn advance(&mut self) {
+        let begins = self.at_byte;
+        let mut head = [0; 9];
+        let got = self.fill(&mut head);
+        let length = u64::from_le_bytes([head[1], head[2], head[3], head[4], head[5], head[6], head[7], head[8]]);
+        if got < head.len() {
+            return self.cut(begins);
+        }
+        if length > LONGEST_RECORD {
+            return self.lose(Loss::at(begins, "damaged: a record with an impossible length; what follows is lost"));
+        }
+        let mut body = Vec::new();
+        if let Err(error) = self.source.by_ref().take(length).read_to_end(&mut body) {
+            return self.lose(Loss::at(begins, error));
+        }
+        self.at_byte += body.len() as u64;
+        if (body.len() as u64) < length {
+            if head[0] == op::CHUNK && self.recover {
+                self.salvage(begins, length, &body);
+            }
+            return self.cut(begins);
+        }
+        self.take(begins, head, &body);
+    }
+
+    fn take(&mut self, begins: u64, head: [u8; 9], body: &[u8]) {
+        if head[0] == op::DATA_END {
+            self.check_data_section(begins, body);
+            self.state = State::Index;
+        } else if head[0] == op::FOOTER {
+            let mut magic = [0; 8];
+            self.fill(&mut magic);
+            self.state = State::Ended;
+        } else if self.state == State::Data {
+            self.checksum.update(&head);
+            self.checksum.update(body);
+            match head[0] {
+                op::CHUNK => self.take_chunk(begins, body),
+                op::SCHEMA | op::CHANNEL | op::MESSAGE => self.take_plain(begins, head[0], body),
+                _ => {}
+            }
+        }
+    }
+
+    fn take_chunk(&mut self, begins: u64, body: &[u8]) {
+        let unpacked = unpack(body.len() as u64, body, &mut self.links, true);
+        let Some(damage) = unpacked.damage else {
+            return self.ready.extend(unpacked.messages.into_iter().map(Ok));
+        };
+        self.whole = false;
+        if self.recover {
+            self.salvage(begins, body.len() as u64, body);
+        } else {
+            let hint = "its messages are left out; --recover takes what can be unpacked, unchecked";
+            self.ready.push_back(Err(Loss::at(begins, format!("damaged chunk ({damage}): {hint}"))));
+        }
+    }
+
+    /// Takes what can be unpacked of a damaged or cut chunk.
+    fn salvage(&mut self, begins: u64, length: u64, body: &[u8]) {
+        let unpacked = unpack(length, body, &mut self.links, false);
+        let count = unpacked.messages.len();
+        self.ready.extend(unpacked.messages.into_iter().map(Ok));
+        let what = format!("damaged chunk: {count} messages salvaged, which no checksum vouches for");
+        self.ready.push_back(Err(Loss::at(begins, what)));
+    }
+
+    fn take_plain(&mut self, begins: u64, opcode: u8, body: &[u8]) {
+        match link(opcode, body, &mut self.links) {
+            Ok(Some(message)) => self.ready.push_back(Ok(message)),
+            Ok(None) => {}
+            Err(error) => {
+                self.whole = false;
+                self.ready.push_back(Err(Loss::at(begins, format!("damaged record, left out: {error}"))));
+            }
+        }
+    }
+
+    /// Messages outside chunks are covered by no other checksum than this.
+    fn check_data_section(&mut self, begins: u64, body: &[u8]) {
+        let Ok(Record::DataEnd(end)) = parse_record(op::DATA_END, body) else { return };
+        let found = self.checksum.clone().finalize();
+        if self.whole && end.data_section_crc != 0 && end.data_section_crc != found {
+            let what = "the log fails its checksum: something before here was changed";
+            self.ready.push_back(Err(Loss::at(begins, what)));
+        }
+    }
+
+    fn cut(&mut self, begins: u64) {
+        if self.state == State::Index {
+            // Only the index is missing, and nothing here needs it.
+            self.state = State::Ended;
+            return;
+        }
+        let hint = if self.recover { "" } else { "; --recover also reads what is left of its last chunk" };
+        self.lose(Loss::at(begins, format!("the log is cut off here: everything before was read{hint}")));
+    }
+
+    fn lose(&mut self, loss: Loss) {
+        self.ready.push_back(Err(loss));
+        self.state = State::Ended;
+    }
+
+    /// Reads until `buffer` is full or the source ends; an error ends it too, and shows as a cut.
+    fn fill(&mut self, buffer: &mut [u8]) -> usize {
+        let mut got = 0;
+        while got < buffer.len() {
+            match self.source.read(&mut buffer[got..]) {
+                Ok(0) => break,
+                Ok(n) => got += n,
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(_) => break,
+            }
+        }
+        self.at_byte += got as u64;
+        got
+    }
+}
+
+impl<R: Read> Iterator for LogReader<R> {
+    type Item = Result<Message<'static>, Loss>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        while self.ready.is_empty() && self.state != State::Ended {
+            self.advance();
+        }
+        self.ready.pop_front()
+    }
+}
+
+/// Takes a schema, channel or message record; a message comes out with its channel.
+pub(super) fn link(
+    opcode: u8,
+    body: &[u8],
+    links: &mut ChannelAccumulator<'static>,
+) -> mcap::McapResult<Option<Message<'static>>> {
+    match parse_record(opcode, body)? {
+        Record::Schema { header, data } => links.add_schema_from_slice(header, &data)?,
+        Record::Channel(channel) => links.add_channel(channel)?,
+        Record::Message { header, data } => {
+            let unknown = mcap::McapError::UnknownChannel(header.sequence, header.channel_id);
+            let channel = links.get(header.channel_id).ok_or(unknown)?;
+            return Ok(Some(Message {
+                channel,
+                sequence: header.sequence,
+                log_time: header.log_time,
+                publish_time: header.publish_time,
+                data: data.into_owned().into(),
+            }));
+        }
+        _ => {}
+    }
+    Ok(None)
+}

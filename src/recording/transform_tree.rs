@@ -1,0 +1,169 @@
+//! Frames within frames over time, as tf keeps them.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Isometry3;
+
+use super::sensed::Transform;
+
+/// Beyond the first and last sample a transform is believed for this long, nanoseconds.
+const TOLERANCE_NS: u64 = 200_000_000;
+/// No chain of frames is longer than this: a longer one is a loop.
+const LONGEST_CHAIN: usize = 64;
+/// Frames that stand for the world: a chain ends there.
+const WORLDS: [&str; 2] = ["map", "world"];
+
+/// Where each frame is within its parent, over time.
+#[derive(Clone, Debug, Default)]
+pub(super) struct TransformTree {
+    tracks: BTreeMap<String, Track>,
+}
+
+#[derive(Clone, Debug)]
+struct Track {
+    parent: String,
+    fixed: bool,
+    samples: BTreeMap<u64, Isometry3<f64>>,
+}
+
+/// A frame's place in the outermost frame known.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Placed {
+    pub(super) root: String,
+    pub(super) root_from_frame: Isometry3<f64>,
+}
+
+/// Why a place cannot be told.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Unplaced {
+    /// Nothing says where this frame is.
+    Unknown(String),
+    /// What is known of this frame is another time's; by how much, nanoseconds.
+    OtherTime { frame: String, off_ns: u64 },
+}
+
+impl TransformTree {
+    /// Takes in a transform; `fixed` ones hold for all time.
+    pub(super) fn insert(&mut self, transform: &Transform, fixed: bool) {
+        let fresh = || Track { parent: transform.parent.clone(), fixed, samples: BTreeMap::new() };
+        let track = self.tracks.entry(transform.child.clone()).or_insert_with(fresh);
+        if track.parent != transform.parent {
+            *track = fresh();
+        }
+        track.samples.insert(transform.stamp_ns, transform.parent_from_child);
+    }
+
+    /// Forgets what is older than this and no longer needed, so that a long stream stays small.
+    pub(super) fn forget_before(&mut self, stamp_ns: u64) {
+        for track in self.tracks.values_mut() {
+            if let Some((&keep, _)) = track.samples.range(..stamp_ns).next_back()
+                && track.samples.len() > 1
+            {
+                track.samples = track.samples.split_off(&keep);
+            }
+        }
+    }
+
+    /// Forgets all that moves.
+    pub(super) fn forget_moving(&mut self) {
+        self.tracks.retain(|_, track| track.fixed);
+    }
+
+    /// Whether anything is known of a frame.
+    pub(super) fn knows(&self, frame: &str) -> bool {
+        self.tracks.contains_key(frame)
+    }
+
+    /// Whether a sample of that time or later has come for a frame.
+    pub(super) fn has_since(&self, frame: &str, stamp_ns: u64) -> bool {
+        let newest = self.tracks.get(frame).and_then(|track| track.samples.last_key_value());
+        newest.is_some_and(|(&stamp, _)| stamp >= stamp_ns)
+    }
+
+    /// Whether nothing can still come that bears on where a frame was at that time.
+    pub(super) fn is_settled(&self, frame: &str, stamp_ns: u64) -> bool {
+        let mut frame = frame;
+        for _ in 0..LONGEST_CHAIN {
+            let Some(track) = self.tracks.get(frame) else { return WORLDS.contains(&frame) };
+            let newest = track.samples.last_key_value().map_or(0, |(&stamp, _)| stamp);
+            if !track.fixed && newest < stamp_ns {
+                return false;
+            }
+            frame = &track.parent;
+        }
+        true
+    }
+
+    /// Where `frame` was at that time, in the outermost frame known.
+    pub(super) fn place(&self, frame: &str, stamp_ns: u64) -> Result<Placed, Unplaced> {
+        let mut placed = Placed { root: frame.to_string(), root_from_frame: Isometry3::identity() };
+        for _ in 0..LONGEST_CHAIN {
+            if WORLDS.contains(&placed.root.as_str()) {
+                break;
+            }
+            let Some(track) = self.tracks.get(&placed.root) else { break };
+            let parent_from_child =
+                track.at(stamp_ns).map_err(|off_ns| Unplaced::OtherTime { frame: placed.root.clone(), off_ns })?;
+            placed = Placed { root: track.parent.clone(), root_from_frame: parent_from_child * placed.root_from_frame };
+        }
+        if placed.root == frame { Err(Unplaced::Unknown(placed.root)) } else { Ok(placed) }
+    }
+}
+
+impl Track {
+    /// Interpolated between the samples about a time; the error is how far the nearest one is off.
+    fn at(&self, stamp_ns: u64) -> Result<Isometry3<f64>, u64> {
+        let before = self.samples.range(..=stamp_ns).next_back();
+        let after = self.samples.range(stamp_ns..).next();
+        let alone = self.fixed || self.samples.len() == 1;
+        match (before, after) {
+            (Some((t, pose)), _) | (None, Some((t, pose))) if *t == stamp_ns || alone => Ok(*pose),
+            (Some((t0, a)), Some((t1, b))) => {
+                let share = (stamp_ns - t0) as f64 / (t1 - t0) as f64;
+                Ok(a.try_lerp_slerp(b, share, 1e-9).unwrap_or(if share < 0.5 { *a } else { *b }))
+            }
+            (Some((t, pose)), None) | (None, Some((t, pose))) => {
+                let off = t.abs_diff(stamp_ns);
+                if off <= TOLERANCE_NS { Ok(*pose) } else { Err(off) }
+            }
+            (None, None) => Err(u64::MAX),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moved(stamp_ns: u64, parent: &str, child: &str, x: f64) -> Transform {
+        let parent_from_child = Isometry3::translation(x, 0.0, 0.0);
+        Transform { stamp_ns, parent: parent.to_string(), child: child.to_string(), parent_from_child }
+    }
+
+    #[test]
+    fn a_place_between_two_times_is_interpolated_along_the_chain() {
+        let mut tree = TransformTree::default();
+        tree.insert(&moved(0, "base_link", "camera", 0.5), true);
+        tree.insert(&moved(1_000, "odom", "base_link", 1.0), false);
+        tree.insert(&moved(3_000, "odom", "base_link", 2.0), false);
+        let placed = tree.place("camera", 2_000).expect("placed");
+        assert_eq!((placed.root.as_str(), placed.root_from_frame.translation.x), ("odom", 2.0));
+    }
+
+    #[test]
+    fn a_transform_of_another_time_is_not_believed() {
+        let mut tree = TransformTree::default();
+        tree.insert(&moved(0, "map", "base_link", 0.0), false);
+        tree.insert(&moved(1, "map", "base_link", 0.0), false);
+        let error = tree.place("base_link", 9_000_000_000).expect_err("too old");
+        assert!(matches!(error, Unplaced::OtherTime { off_ns: 8_999_999_999, .. }), "{error:?}");
+    }
+
+    #[test]
+    fn a_loop_of_frames_ends() {
+        let mut tree = TransformTree::default();
+        tree.insert(&moved(0, "a", "b", 1.0), true);
+        tree.insert(&moved(0, "b", "a", 1.0), true);
+        assert!(tree.place("a", 0).is_err() || tree.place("b", 0).is_ok());
+    }
+}

@@ -1,0 +1,131 @@
+//! A watcher that writes the log of a trial.
+
+use std::path::Path;
+
+use super::{Home, Run, Settings};
+use crate::behavior::{Furniture, Watcher, grid_of};
+use crate::frame::RgbdFrame;
+use crate::geometry::{ClearanceGrid, Pose, vec2};
+use crate::record::Record;
+use crate::recording::{LogError, Piece, TimedFrame, TrialLog};
+use crate::robot::{MobileBase, p3dx};
+
+/// The keys the stages add, in their order, under the stage's name.
+const STAGES: [(&str, &[&str]); 4] =
+    [("chunk", &["tokens", "chunks"]), ("ground", &["grounding"]), ("plan", &["plan"]), ("drive", &["trial"])];
+
+/// Writes what the executive does, as it happens.
+pub(super) struct Recorder {
+    log: TrialLog,
+}
+
+impl Recorder {
+    /// Begins the log of a trial of `record`, with the record as each stage before wrote it.
+    pub(super) fn new(
+        path: &Path,
+        force: bool,
+        home: &Home,
+        settings: &Settings,
+        record: &Record,
+    ) -> Result<Self, LogError> {
+        let about = [
+            ("version", env!("CARGO_PKG_VERSION").to_string()),
+            ("map", home.map.name.clone()),
+            ("seed", settings.seed.to_string()),
+            ("settings", format!("{settings:?}")),
+        ];
+        let about = about.into_iter().map(|(name, value)| (name.to_string(), value)).collect();
+        let mut log = TrialLog::create(path, force, about)?;
+        for (stage, line) in inputs(record) {
+            log.record(0.0, stage, &line);
+        }
+        log.walls(&home.map.walls(), home.map.wall_height);
+        log.grid(0.0, &grid_of(&home.map));
+        let outlines: Vec<_> = home.scene.furniture.iter().map(|item| (item, item.footprint())).collect();
+        let pieces = outlines.iter().map(|(item, outline)| Piece {
+            label: item.id.clone(),
+            corners: outline.corners(),
+            height: item.size().height,
+        });
+        log.truth(&pieces.collect::<Vec<_>>());
+        Ok(Self { log })
+    }
+
+    /// Ends the log with the last picture and the record as `drive` writes it.
+    pub(super) fn finish(mut self, run: &Run, picture: Vec<u8>, record: &str) -> Result<(), LogError> {
+        let end = run.trial.duration_s.0;
+        self.log.picture(end, picture);
+        self.log.record(end, "drive", record);
+        self.log.finish(end)
+    }
+}
+
+/// The record as the pipeline was given it, and as each stage wrote it, the input of `drive` byte for byte.
+fn inputs(record: &Record) -> Vec<(&'static str, String)> {
+    let added = |from: usize| STAGES[from..].iter().flat_map(|(_, keys)| keys.iter().copied()).collect::<Vec<_>>();
+    let mut lines = Vec::new();
+    for (i, stage) in ["input", "chunk", "ground"].into_iter().enumerate() {
+        // A record's keys are strings, so it serializes.
+        let line = serde_json::to_string(&record.without(&added(i))).unwrap_or_default();
+        if i == 0 || STAGES[i - 1].1.iter().all(|key| record.raw(key).is_some()) {
+            lines.push((stage, line));
+        }
+    }
+    let line = record.line().trim();
+    let own = || serde_json::to_string(record).unwrap_or_default();
+    lines.push(("plan", if line.is_empty() { own() } else { line.to_string() }));
+    lines
+}
+
+impl Watcher for Recorder {
+    fn sensed(&mut self, base: &dyn MobileBase) {
+        self.log.pose(base.time_s(), base.pose(), base.velocity());
+        let heard = base.sonar().iter().filter(|reading| reading.range_m < p3dx::SONAR_RANGE_M);
+        let echoes: Vec<_> = heard
+            .map(|reading| reading.mount + vec2(reading.bearing.cos(), reading.bearing.sin()) * reading.range_m)
+            .collect();
+        self.log.sonar(base.time_s(), &echoes);
+    }
+
+    fn frame(&mut self, time_s: f64, believed: Pose, frame: &RgbdFrame) {
+        self.log.frame(&TimedFrame::at(time_s, Some(believed), frame.clone()));
+    }
+
+    fn grid(&mut self, time_s: f64, grid: &ClearanceGrid) {
+        self.log.grid(time_s, grid);
+    }
+
+    fn said(&mut self, time_s: f64, text: &str) {
+        self.log.said(time_s, text);
+    }
+
+    fn furniture(&mut self, time_s: f64, furniture: &[Furniture]) {
+        let pieces: Vec<Piece> = furniture
+            .iter()
+            .map(|f| Piece { label: f.label(), corners: f.footprint.corners(), height: f.detection.height })
+            .collect();
+        self.log.believed(time_s, &pieces);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_stage_finds_its_input_as_it_was() {
+        let line = r#"{"id":"1","text":"x","mine":1.0,"tokens":[],"chunks":[],"grounding":{},"plan":{}}"#;
+        let record = Record::parse(line).expect("valid JSON");
+        let lines = inputs(&record);
+        assert_eq!(lines[0], ("input", r#"{"id":"1","text":"x","mine":1.0}"#.to_string()));
+        assert_eq!(lines[1].1, r#"{"id":"1","text":"x","mine":1.0,"tokens":[],"chunks":[]}"#);
+        assert_eq!(lines[3], ("plan", line.to_string()));
+    }
+
+    #[test]
+    fn a_stage_that_was_left_out_has_no_message() {
+        let record = Record::parse(r#"{"id":"1","plan":{}}"#).expect("valid JSON");
+        let stages: Vec<_> = inputs(&record).into_iter().map(|(stage, _)| stage).collect();
+        assert_eq!(stages, ["input", "plan"]);
+    }
+}

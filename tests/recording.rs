@@ -1,0 +1,134 @@
+//! Logs through the real executables: written by `drive`, read again by every stage.
+
+mod common;
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use common::{executable, pipe, run};
+use spatial_fetch::recording::records;
+
+const SENTENCE: &str = "the mug is in the bedroom on the table next to the chairs\n";
+
+struct Recorded {
+    _folder: tempfile::TempDir,
+    log: String,
+    stages: [String; 4],
+}
+
+/// One sentence through all four, the last one recorded.
+fn recorded() -> Recorded {
+    let folder = tempfile::tempdir().expect("a folder");
+    let log = folder.path().join("trial.mcap").to_str().expect("UTF-8").to_string();
+    let chunked = pipe(&["chunk"], SENTENCE);
+    let grounded = pipe(&["ground"], &chunked);
+    let planned = pipe(&["plan"], &grounded);
+    let driven = run("drive", &["--record", &log], &planned).expect_code(0).out;
+    Recorded { _folder: folder, log, stages: [chunked, grounded, planned, driven] }
+}
+
+#[test]
+fn every_stage_run_from_the_log_gives_the_same_bytes_as_the_first_time() {
+    let recorded = recorded();
+    for (stage, first) in ["chunk", "ground", "plan", "drive"].iter().zip(&recorded.stages) {
+        let again = run(stage, &["--from", &recorded.log], "").expect_code(0);
+        assert_eq!(again.out, *first, "{stage}");
+    }
+    assert_eq!(run("drive", &["--replay", &recorded.log], "").expect_code(0).out, recorded.stages[3]);
+}
+
+#[test]
+fn each_line_is_one_message_byte_for_byte_and_the_same_trial_gives_the_same_file() {
+    let recorded = recorded();
+    let path = Path::new(&recorded.log);
+    assert_eq!(records(path, "/fetch/plan").expect("a log"), [recorded.stages[2].trim_end()]);
+    assert_eq!(records(path, "/fetch/drive").expect("a log"), [recorded.stages[3].trim_end()]);
+    let first = std::fs::read(path).expect("readable");
+    run("drive", &["--record", &recorded.log, "--force", "-j", "1"], &recorded.stages[2]).expect_code(0);
+    assert!(std::fs::read(path).expect("readable") == first, "two files for one trial");
+}
+
+#[test]
+fn a_topic_that_is_not_there_is_answered_with_those_that_are() {
+    let recorded = recorded();
+    let ran = run("plan", &["--from", &recorded.log, "--topic", "/no/such"], "").expect_code(3);
+    assert!(ran.err.contains("no record on /no/such") && ran.err.contains("/fetch/ground"), "{}", ran.err);
+    let ran = run("plan", &["--from", &recorded.log, "--topic", "/tf"], "").expect_code(3);
+    assert!(
+        ran.err.contains("/tf holds no records: its encoding is `protobuf` (foxglove.FrameTransforms)"),
+        "{}",
+        ran.err
+    );
+}
+
+#[test]
+fn a_window_of_time_leaves_out_what_lies_outside() {
+    let recorded = recorded();
+    let ran = run("ground", &["--from", &recorded.log, "--start", "0.5"], "").expect_code(0);
+    assert_eq!(ran.out, "");
+    let ran = run("ground", &["--from", &recorded.log, "--end", "0.5"], "").expect_code(0);
+    assert_eq!(ran.out, recorded.stages[1]);
+    let ran = run("ground", &["--start", "0.5"], "").expect_code(2);
+    assert!(ran.err.contains("name it by --from"), "{}", ran.err);
+}
+
+#[test]
+fn a_log_that_is_no_log_and_one_that_is_not_there_are_named() {
+    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml");
+    let ran = run("chunk", &["--from", manifest], "").expect_code(1);
+    assert!(ran.err.contains("Cargo.toml: not an MCAP log"), "{}", ran.err);
+    let ran = run("chunk", &["--from", "no/such.mcap"], "").expect_code(1);
+    assert!(ran.err.contains("no/such.mcap: "), "{}", ran.err);
+}
+
+#[test]
+fn a_cut_log_gives_what_it_has_and_exit_3() {
+    let recorded = recorded();
+    let bytes = std::fs::read(&recorded.log).expect("readable");
+    std::fs::write(&recorded.log, &bytes[..bytes.len() / 2]).expect("written");
+    for arguments in [vec!["--from", recorded.log.as_str()], vec!["--from", &recorded.log, "--recover"]] {
+        let ran = run("chunk", &arguments, "").expect_code(3);
+        assert_eq!(ran.out, recorded.stages[0]);
+        assert!(ran.err.contains("cut off here"), "{}", ran.err);
+    }
+}
+
+/// The seconds at which the robot's odometry was logged.
+fn odometry_times(log: &Path) -> Vec<f64> {
+    let file = std::fs::File::open(log).expect("a log");
+    let reader = spatial_fetch::recording::LogReader::new(file, "log", true).expect("a log");
+    let messages = reader.filter_map(Result::ok).filter(|message| message.channel.topic == "/odom");
+    messages.map(|message| message.log_time as f64 / 1e9).collect()
+}
+
+#[test]
+fn a_trial_that_was_killed_leaves_everything_but_the_last_second() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let log = folder.path().join("killed.mcap");
+    let planned = pipe(&["chunk", "ground", "plan"], SENTENCE);
+    let plan = folder.path().join("plan.jsonl");
+    std::fs::write(&plan, planned).expect("written");
+    let whole = folder.path().join("whole.mcap");
+    run("drive", &["--record", whole.to_str().expect("UTF-8"), plan.to_str().expect("UTF-8")], "").expect_code(0);
+    let all = odometry_times(&whole);
+    // The log grows while the trial goes on: it is killed once so many bytes of it are there.
+    for bytes in [4_000, 40_000] {
+        let mut drive = Command::new(executable("drive"))
+            .args(["--force", "--record"])
+            .args([&log, &plan])
+            .stdout(Stdio::null())
+            .spawn()
+            .expect("starts");
+        while std::fs::metadata(&log).map_or(0, |found| found.len()) < bytes {
+            if drive.try_wait().expect("waits").is_some() {
+                break;
+            }
+        }
+        let _ = drive.kill();
+        drive.wait().expect("ends");
+        let times = odometry_times(&log);
+        // No gap: what is there is the beginning of the whole, whatever the moment.
+        assert_eq!(times, all[..times.len()], "killed at {bytes} bytes");
+        let _ = std::fs::remove_file(&log);
+    }
+}
