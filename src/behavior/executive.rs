@@ -133,6 +133,9 @@ impl<'a> Executive<'a> {
             for action in &task.steps {
                 self.step(action, &frame)?;
             }
+            if !self.pilot.can_see() {
+                return Ok((Outcome::Arrived, without_camera(plan)));
+            }
             match self.search(&task, &frame)? {
                 Ok(found) => return Ok((Outcome::Found, found)),
                 Err(reason) => why = reason,
@@ -417,6 +420,19 @@ impl<'a> Executive<'a> {
         let named = |s: &&ObjectSighting| object.is_none_or(|name| s.name == name);
         let seen = || self.pilot.view().objects.iter().filter(named).filter(on_it);
         seen().find(|s| s.recognisable).or_else(|| seen().next()).cloned()
+    }
+}
+
+/// What a robot without a camera has left undone.
+fn without_camera(plan: &Plan) -> String {
+    let wanted = plan.actions.iter().find_map(|action| match action {
+        Action::Search { target: Some(target), .. } => Some(target.replace('_', " ")),
+        Action::Find { object: Some(object) } => Some(object.replace('_', " ")),
+        _ => None,
+    });
+    match wanted {
+        Some(wanted) => format!("the moves are done; to look for the {wanted} a camera is needed (--camera FILE)"),
+        None => "the moves are done".to_string(),
     }
 }
 

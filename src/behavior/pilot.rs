@@ -97,6 +97,11 @@ impl<'a> Pilot<'a> {
         self.base.pose()
     }
 
+    /// Whether the robot has a camera.
+    pub fn can_see(&self) -> bool {
+        self.eyes.can_see()
+    }
+
     /// The planning grid: rooms and all furniture seen.
     pub fn grid(&self) -> &ClearanceGrid {
         &self.grid

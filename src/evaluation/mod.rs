@@ -7,6 +7,7 @@ mod labelled;
 mod model;
 mod score;
 mod table;
+mod training_frame;
 
 pub use brackets::{Bracket, brackets_of};
 pub use gold::{Gold, GoldError, read_gold};
@@ -15,3 +16,4 @@ pub use labelled::{LabelledChunk, LabelledTree, TreeError, parse_tree};
 pub use model::training_record;
 pub use score::{Group, Scores, run_corpus, score};
 pub use table::text_tables;
+pub use training_frame::write_training_frame;

@@ -4,8 +4,10 @@
 //! where a frame comes from or what is in it.
 
 mod decode;
+mod png;
 
 pub use decode::{Picture, decode_color, decode_depth};
+pub use png::grey_png;
 
 /// Focal lengths and principal point of a pinhole camera, pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]

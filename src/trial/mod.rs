@@ -7,13 +7,19 @@
 mod home;
 mod judge;
 mod outputs;
+mod real;
 mod recorder;
 mod run;
+mod served;
 mod settings;
 mod stage;
+mod stream_eyes;
 
 pub use home::Home;
 pub use outputs::Outputs;
+pub use real::{Interrupter, RealDriver};
 pub use run::{Run, run};
+pub use served::{Served, ServingStop, served_until_interrupted};
 pub use settings::{Perception, Settings, stream_of};
 pub use stage::Driver;
+pub use stream_eyes::{NoEyes, StreamEyes};

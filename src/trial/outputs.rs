@@ -2,9 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
 use super::{Home, Run};
 use crate::drawing::{Outline, Plot};
-use crate::world::camera::{Camera, SolidScene, render};
+use crate::world::camera::{Kinect, SolidScene};
 
 /// Where the files go; `{id}` in a name stands for the record's id.
 #[derive(Clone, Debug, Default)]
@@ -47,7 +50,9 @@ impl Outputs {
 
     /// What the robot's camera shows at the end of a trial, PNG.
     pub(super) fn take_picture(home: &Home, run: &Run) -> Vec<u8> {
-        render(&SolidScene::new(&home.map, &home.scene), &Camera::kinect(), run.final_pose).to_png()
+        let solids = SolidScene::new(&home.map, &home.scene);
+        let (frame, _) = Kinect::default().capture(&solids, run.final_pose, &mut ChaCha8Rng::seed_from_u64(0));
+        frame.color_png()
     }
 }
 

@@ -54,7 +54,7 @@ pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: 
     Run { trial, final_pose: truth.pose, found_at: report.found_at }
 }
 
-fn rounded(pose: Pose) -> Pose {
+pub(super) fn rounded(pose: Pose) -> Pose {
     let four = |v: f64| crate::record::Rounded(v).value();
     Pose::new(four(pose.x), four(pose.y), four(pose.heading))
 }

@@ -7,10 +7,12 @@
 pub mod camera;
 mod check;
 mod error;
+pub mod families;
 mod furniture;
 mod map;
 mod scene;
 pub mod solid;
+pub mod training;
 
 pub use check::check;
 pub use error::WorldError;

@@ -2,14 +2,16 @@
 
 mod executive;
 mod outputs;
+mod robot;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, Failure, FromLog, Intake, Program};
-use spatial_fetch::record::Trial;
+use spatial_fetch::cli::{self, Common, Exit, Failure, FromLog, Intake, Program, Reporter};
+use spatial_fetch::record::{Stage, Trial};
 use spatial_fetch::trial::{Driver, Home, Perception, Settings};
+use spatial_fetch::world::{RoomMap, WorldError};
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
 ///
@@ -22,7 +24,7 @@ use spatial_fetch::trial::{Driver, Home, Perception, Settings};
 )]
 struct Arguments {
     /// Room map [default: the apartment]
-    #[arg(long, value_name = "FILE", requires = "scene")]
+    #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
     /// Furniture and objects of the simulated home [default: the apartment as first furnished]
     #[arg(long, value_name = "FILE")]
@@ -32,6 +34,8 @@ struct Arguments {
     perception: Perception,
     #[command(flatten)]
     executive: executive::Arguments,
+    #[command(flatten)]
+    robot: robot::Arguments,
     #[command(flatten)]
     outputs: outputs::Arguments,
     #[command(flatten)]
@@ -49,22 +53,41 @@ impl Program for Arguments {
         schemars::schema_for!(Trial)
     }
     fn reads_standard_input(&self) -> bool {
-        self.log.from.is_none() && self.common.files.is_empty()
+        !self.robot.serves() && self.log.from.is_none() && self.common.files.is_empty()
     }
     fn run(self) -> Result<Exit, Failure> {
-        let home =
-            Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
+        let home = self.home()?;
+        let reporter = Reporter::new(Self::NAME, &self.common);
+        if self.robot.serves() {
+            return self.robot.run_served(&home, &reporter, self.common.seed);
+        }
         let settings =
             Settings { options: self.executive.options(), perception: self.perception, seed: self.common.seed };
         let outputs = self.outputs.outputs(self.common.force);
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
-        cli::run_filter_on(
-            Self::NAME,
-            &self.common,
-            lines.as_mut(),
-            Intake::Records,
-            &Driver { home, settings, outputs },
-        )
+        let (driver, common): (Box<dyn Stage>, Common) = if self.robot.is_real() {
+            // One robot, one plan at a time.
+            let common = Common { jobs: 1, ..self.common };
+            (Box::new(self.robot.driver(home.map, settings, outputs, reporter)?), common)
+        } else {
+            (Box::new(Driver { home, settings, outputs }), self.common)
+        };
+        cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, driver.as_ref())
+    }
+}
+
+impl Arguments {
+    /// What is known of where the robot is: of a real one, the rooms alone.
+    fn home(&self) -> Result<Home, Failure> {
+        let failed = |error: WorldError| Failure::Failed(error.to_string());
+        if self.robot.is_real() && !self.robot.serves() {
+            let map = self.map.as_deref().map_or_else(|| Ok(RoomMap::apartment()), RoomMap::load);
+            return map.map(Home::unfurnished).map_err(failed);
+        }
+        if self.map.is_some() && self.scene.is_none() {
+            return Err(Failure::Usage("--map needs the --scene that stands on it".to_string()));
+        }
+        Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(failed)
     }
 }
 

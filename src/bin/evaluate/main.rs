@@ -1,5 +1,6 @@
 //! Scores records against gold, and runs the experiments: one file a subcommand.
 
+mod frames;
 mod run;
 mod score;
 
@@ -27,6 +28,8 @@ enum What {
     Score(score::Arguments),
     /// Run a corpus end to end, from text to trial, and score it
     Run(run::Arguments),
+    /// Render frames of rooms furnished at random, with the truth, to train and test perception on
+    Frames(frames::Arguments),
 }
 
 impl Program for Arguments {
@@ -35,6 +38,7 @@ impl Program for Arguments {
         match &self.what {
             What::Score(arguments) => &arguments.common,
             What::Run(arguments) => &arguments.common,
+            What::Frames(arguments) => &arguments.common,
         }
     }
     fn schema() -> schemars::Schema {
@@ -47,6 +51,7 @@ impl Program for Arguments {
         match self.what {
             What::Score(arguments) => arguments.run(),
             What::Run(arguments) => arguments.run(),
+            What::Frames(arguments) => arguments.run(),
         }
     }
 }

@@ -1,13 +1,35 @@
-//! What a camera on the robot's tower sees of a scene: who hides whom, and pictures.
+//! What a camera on the robot's tower sees of a scene: who hides whom, and the frames of a Kinect.
 //!
-//! Rays are cast against the solids; nothing here knows of sensor faults.
+//! [`SolidScene::visibility`] counts rays: what ideal eyes see. [`Kinect::capture`]
+//! renders colour and depth with the real sensor's faults, 640 × 480:
+//!
+//! ```
+//! use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
+//! use spatial_fetch::world::camera::{Kinect, SolidScene};
+//! use spatial_fetch::world::{RoomMap, Scene};
+//!
+//! let (map, scene) = (RoomMap::apartment(), Scene::apartment());
+//! let solids = SolidScene::new(&map, &scene);
+//! let mut rng = ChaCha8Rng::seed_from_u64(1);
+//! let entry = map.entry_pose("living_room").expect("a door");
+//! let (frame, ids) = Kinect::default().capture(&solids, entry, &mut rng);
+//! assert_eq!((frame.depth.len(), ids.len()), (640 * 480, 640 * 480));
+//! ```
 
-mod picture;
+mod colors;
+mod depths;
+mod faces;
+mod kinect;
+mod noise;
+mod raster;
 mod solids;
 mod visibility;
 
-pub use picture::{Picture, render};
-pub use solids::{SolidScene, Surface};
+pub use colors::Light;
+pub use depths::KinectFaults;
+pub use faces::{Faces, Finish, Frustum, Point, Texture};
+pub use kinect::Kinect;
+pub use solids::SolidScene;
 pub use visibility::{Seen, Visibility};
 
 use crate::geometry::{Pose, Vec2, vec2};

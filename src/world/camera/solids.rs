@@ -1,21 +1,9 @@
 //! The scene as solids, with what each belongs to.
 
+use super::faces::{Faces, Finish, Texture, bounds_of};
 use crate::geometry::Vec2;
-use crate::world::solid::{Color, Solid};
-use crate::world::{RoomMap, Scene};
-
-/// What a solid belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Surface {
-    /// The floor.
-    Floor,
-    /// A wall, by its number.
-    Wall(usize),
-    /// Furniture, by its number in the scene.
-    Furniture(usize),
-    /// An object, by its number in the scene.
-    Object(usize),
-}
+use crate::world::solid::Solid;
+use crate::world::{RoomMap, Scene, Shape};
 
 /// Everything the camera can see, as solids.
 #[derive(Clone, Debug)]
@@ -24,6 +12,7 @@ pub struct SolidScene {
     pub(super) objects: Vec<Thing>,
     pub(super) walls: Vec<(Vec2, Vec2)>,
     pub(super) wall_height: f64,
+    faces: Faces,
 }
 
 /// The solids of one item, with the ball that holds them.
@@ -38,12 +27,43 @@ pub(super) struct Thing {
 impl SolidScene {
     /// The solids of a scene.
     pub fn new(map: &RoomMap, scene: &Scene) -> Self {
-        let furniture = scene.furniture.iter().map(|item| Thing::new(item.solids())).collect();
+        let furniture: Vec<Thing> = scene.furniture.iter().map(|item| Thing::new(item.solids())).collect();
         let holder = |object: &crate::world::PlacedObject| {
             scene.item(&object.on).map(|item| object.solids_on(item)).unwrap_or_default()
         };
-        let objects = scene.objects.iter().map(|object| Thing::new(holder(object))).collect();
-        Self { furniture, objects, walls: map.walls(), wall_height: map.wall_height }
+        let objects: Vec<Thing> = scene.objects.iter().map(|object| Thing::new(holder(object))).collect();
+        let mut faces = shell(map);
+        let textures = scene.furniture.iter().map(|item| texture_of(item.kind().shape));
+        let textures = textures.chain(scene.objects.iter().map(|_| Texture::Plain));
+        for ((id, thing), texture) in (1..).zip(furniture.iter().chain(&objects)).zip(textures) {
+            thing.solids.iter().for_each(|solid| faces.add_solid(solid, texture, id));
+        }
+        Self { furniture, objects, walls: map.walls(), wall_height: map.wall_height, faces }
+    }
+
+    /// What the renderer draws.
+    pub fn faces(&self) -> &Faces {
+        &self.faces
+    }
+}
+
+/// Floor, walls and ceiling of a home.
+fn shell(map: &RoomMap) -> Faces {
+    let mut faces = Faces::default();
+    let (low, high) = bounds_of(map.rooms.iter().map(|room| room.polygon()));
+    faces.add_level(low, high, 0.0, FLOOR);
+    faces.add_level(low, high, map.wall_height, CEILING);
+    for (a, b) in map.walls() {
+        faces.add_wall(a, b, map.wall_height, WALL);
+    }
+    faces
+}
+
+fn texture_of(shape: Shape) -> Texture {
+    match shape {
+        Shape::Couch | Shape::Bed => Texture::Cloth,
+        Shape::Lamp => Texture::Plain,
+        _ => Texture::Wood,
     }
 }
 
@@ -66,7 +86,6 @@ impl Thing {
     }
 }
 
-/// The colour of walls, floor, and what the picture shows behind everything.
-pub(super) const WALL: Color = [222, 216, 204];
-pub(super) const FLOOR: Color = [168, 142, 112];
-pub(super) const BACKDROP: Color = [236, 238, 240];
+const WALL: Finish = Finish::new([222, 216, 204], Texture::Plain);
+const CEILING: Finish = Finish::new([240, 240, 238], Texture::Plain);
+const FLOOR: Finish = Finish::new([168, 142, 112], Texture::Boards);

@@ -47,13 +47,32 @@ pub struct ArcosBase {
     preflight: String,
     /// The pose, in the map, at which the robot was first heard.
     start: Pose,
+    /// When the trial began, and the metres driven before it.
+    began: (Duration, f64),
 }
 
-/// Stops the robot from anywhere, such as a signal handler's thread.
+/// Stops the robot from anywhere, such as a signal handler's thread, and knows how it is.
 #[derive(Clone)]
 pub struct Stopper(Arc<Shared>);
 
 impl Stopper {
+    /// Whether someone has told it to stop for good.
+    pub fn is_stopping(&self) -> bool {
+        self.0.lock().quit
+    }
+
+    /// Whether the robot moves, or is told to.
+    pub fn is_moving(&self) -> bool {
+        let state = self.0.lock();
+        let (linear, angular) = state.report.velocity;
+        linear.abs() > 0.005 || angular.abs() > 0.01
+    }
+
+    /// What happened since this was last asked.
+    pub fn take_events(&self) -> Vec<Event> {
+        std::mem::take(&mut self.0.lock().events)
+    }
+
     /// Stops the robot, switches its motors off, closes the line, and waits until that is done.
     pub fn stop(&self) {
         let mut state = self.0.lock();
@@ -78,7 +97,7 @@ impl ArcosBase {
         let theirs = Arc::clone(&shared);
         let thread = std::thread::Builder::new().name("robot".to_string()).spawn(move || run(client, &theirs));
         let thread = thread.map_err(|error| ConnectError::Line("the robot's thread".to_string(), error))?;
-        Ok(Self { shared, thread: Some(thread), report, resume, preflight, start })
+        Ok(Self { shared, thread: Some(thread), report, resume, preflight, start, began: (Duration::ZERO, 0.0) })
     }
 
     /// Everything to know before driving off, in one line.
@@ -91,9 +110,15 @@ impl ArcosBase {
         Stopper(Arc::clone(&self.shared))
     }
 
-    /// What happened since this was last asked.
-    pub fn take_events(&mut self) -> Vec<Event> {
-        std::mem::take(&mut self.shared.lock().events)
+    /// Time and distance begin anew.
+    pub fn begin_trial(&mut self) {
+        self.report = self.shared.lock().report.clone();
+        self.began = (self.report.at, self.report.distance_m);
+    }
+
+    /// Metres driven in this trial.
+    pub fn trial_distance_m(&self) -> f64 {
+        self.report.distance_m - self.began.1
     }
 
     /// The robot's last report.
@@ -153,7 +178,7 @@ impl MobileBase for ArcosBase {
     }
 
     fn time_s(&self) -> f64 {
-        self.report.at.as_secs_f64()
+        self.report.at.saturating_sub(self.began.0).as_secs_f64()
     }
 
     fn drive(&mut self, linear: f64, angular: f64, seconds: f64) -> Result<(), RobotError> {

@@ -4,35 +4,27 @@ use std::io;
 use std::time::Duration;
 
 use super::handshake::Handshake;
-use super::odometry::Taken;
 use super::{ConnectError, Event, Identity, Odometry, Report, Settings, guarded_speed};
-use crate::robot::arcos::codec::{Command, Config, Counters, Decoder, Packet, Sip, number};
+use crate::geometry::Pose;
+use crate::robot::arcos::codec::{Command, Config, Counters, Decoder, number};
 use crate::robot::arcos::line::Line;
 use crate::robot::arcos::parameters::Parameters;
 use crate::robot::{MobileBase, RobotError, SonarReading, Status};
 
-use crate::geometry::Pose;
-
 /// Between two commands (Operations Manual: 3 to 5 ms).
-const SPACING: Duration = Duration::from_millis(4);
+pub(super) const SPACING: Duration = Duration::from_millis(4);
 /// A stop is repeated this often until the robot stands.
 const STOP_AGAIN: Duration = Duration::from_millis(60);
 /// A robot with nothing to do hears from us this often.
 const PULSE: Duration = Duration::from_millis(500);
-/// Longer without a packet than this many cycles is told.
-const LATE_CYCLES: f64 = 1.7;
 /// Faults of the line are summed up over this time.
 const SUM_UP: Duration = Duration::from_secs(1);
-/// The longest time between two attempts to connect again.
-const LONGEST_BACK_OFF: Duration = Duration::from_secs(4);
-/// A robot that shall stand stands within this.
-const STANDS_WITHIN: Duration = Duration::from_millis(1500);
 /// One turn of the loop waits for bytes no longer than this.
-const TURN: Duration = Duration::from_millis(20);
+pub(super) const TURN: Duration = Duration::from_millis(20);
 
 /// A velocity that was asked for.
 #[derive(Clone, Copy, Debug)]
-struct Ask {
+pub(super) struct Ask {
     linear: f64,
     angular: f64,
     at: Duration,
@@ -49,19 +41,19 @@ pub struct Client<L: Line> {
     pub(super) report: Report,
     pub(super) sips_before_open: u64,
     pub(super) wants_motors: bool,
-    parameters: Parameters,
-    odometry: Odometry,
-    ask: Option<Ask>,
+    pub(super) parameters: Parameters,
+    pub(super) odometry: Odometry,
+    pub(super) ask: Option<Ask>,
     /// The velocity the robot was last told, mm/s and °/s.
-    told: (i32, i32),
-    told_at: Duration,
-    heard_at: Duration,
-    guarding: bool,
-    low_battery: bool,
-    events: Vec<Event>,
-    summed_up: (Duration, Counters),
-    lost: Option<String>,
-    closed: bool,
+    pub(super) told: (i32, i32),
+    pub(super) told_at: Duration,
+    pub(super) heard_at: Duration,
+    pub(super) guarding: bool,
+    pub(super) low_battery: bool,
+    pub(super) events: Vec<Event>,
+    pub(super) summed_up: (Duration, Counters),
+    pub(super) lost: Option<String>,
+    pub(super) closed: bool,
 }
 
 impl<L: Line> Client<L> {
@@ -178,7 +170,7 @@ impl<L: Line> Client<L> {
         Ok(())
     }
 
-    fn read(&mut self, wait: Duration) -> io::Result<()> {
+    pub(super) fn read(&mut self, wait: Duration) -> io::Result<()> {
         let mut buffer = [0; 512];
         let count = self.line.read(&mut buffer, wait)?;
         let now = self.line.now();
@@ -189,78 +181,6 @@ impl<L: Line> Client<L> {
         self.report.at = now;
         self.sum_up_faults(now);
         Ok(())
-    }
-
-    fn take_in(&mut self, packet: &Packet) {
-        if let Some(sip) = Sip::from_packet(packet) {
-            self.take_in_sip(&sip);
-        } else if let Some(config) = Config::from_packet(packet) {
-            self.config = config;
-        }
-        // Others are not asked for here, and an unknown type is none of our business.
-    }
-
-    fn take_in_sip(&mut self, sip: &Sip) {
-        let now = self.line.now();
-        let gap = now.saturating_sub(self.heard_at);
-        let cycle = f64::from(self.config.sip_cycle_ms.unwrap_or(100).max(10)) / 1000.0;
-        if self.report.sips > 0 && gap.as_secs_f64() > LATE_CYCLES * cycle {
-            self.note(format!("no information packet for {} ms", gap.as_millis()));
-        }
-        self.heard_at = now;
-        if self.odometry.take(sip, now) == Taken::Rebased {
-            self.note("the robot's position counters were set anew; going on from the same place");
-        }
-        let p = self.parameters;
-        let wheels = (f64::from(sip.left_mm_s), f64::from(sip.right_mm_s));
-        let by_wheels = (wheels.1 - wheels.0) / 2.0 * p.turn_rad_per_mm;
-        let turn = sip.tail.turn_ddeg_s.map_or(by_wheels, |ddeg| (f64::from(ddeg) / 10.0).to_radians());
-        let report = &mut self.report;
-        report.pose = self.odometry.pose();
-        report.distance_m = self.odometry.distance_m();
-        report.velocity = (wheels.0.midpoint(wheels.1) * p.velocity_m_s, turn);
-        report.front_bumpers = sip.front_bumpers();
-        report.rear_bumpers = sip.rear_bumpers();
-        report.status = Status { stalled: sip.stalled(), bumped: sip.front_bumpers() | sip.rear_bumpers() != 0 };
-        report.battery_v = sip.battery_v();
-        report.motors = sip.flags.motors_enabled();
-        report.emergency_stop = sip.flags.emergency_stopped();
-        report.sips += 1;
-        for (number, range) in &sip.sonar {
-            let Some((mount, bearing)) = p.sonars.sonar(*number) else { continue };
-            let reading = SonarReading { mount, bearing, range_m: f64::from(*range) * p.range_m };
-            match report.sonar.iter_mut().find(|known| known.bearing == bearing && known.mount == mount) {
-                Some(known) => *known = reading,
-                None => report.sonar.push(reading),
-            }
-        }
-        self.watch();
-    }
-
-    /// What holds the robot, and what no longer does.
-    fn watch(&mut self) {
-        let low = self.config.low_battery_dv.map_or(11.0, |dv| f64::from(dv) / 10.0);
-        if self.report.battery_v < low && !std::mem::replace(&mut self.low_battery, true) {
-            self.note(format!("the battery is low: {:.1} V", self.report.battery_v));
-        }
-        if self.report.emergency_stop {
-            self.hold("the STOP button is pressed");
-        } else if self.report.status.stalled {
-            self.hold("a wheel is stalled");
-        } else if self.wants_motors && !self.report.motors {
-            self.hold("the motors are disabled");
-        } else if self.settings.resume && self.report.motors && self.report.held.take().is_some() {
-            self.note("free again: going on");
-        }
-    }
-
-    /// Holds the robot: no velocity is passed on until someone allows it.
-    pub(super) fn hold(&mut self, why: &str) {
-        if self.report.held.as_deref() != Some(why) {
-            self.report.held = Some(why.to_string());
-            self.note(format!("{why}: stopping"));
-        }
-        self.ask = None;
     }
 
     /// The velocity that is safe now, mm/s and °/s.
@@ -283,7 +203,7 @@ impl<L: Line> Client<L> {
     }
 
     /// Sends what is due: a velocity each time it is asked for, a stop until the robot stands, a pulse now and then.
-    fn steer(&mut self) -> io::Result<()> {
+    pub(super) fn steer(&mut self) -> io::Result<()> {
         let now = self.line.now();
         let wanted = self.wanted();
         let since = now.saturating_sub(self.told_at);
@@ -339,67 +259,6 @@ impl<L: Line> Client<L> {
                 new.bad_checksum, new.bad_count, new.cut_short, new.skipped, new.good
             ));
         }
-    }
-
-    fn lose(&mut self, why: String) -> Result<(), RobotError> {
-        self.ask = None;
-        self.note(format!("link lost: {why}"));
-        let Some(limit) = self.settings.reconnect else {
-            self.lost = Some(format!("{}: {why}", self.line.name()));
-            return Err(RobotError::Link(format!("{}: {why}", self.line.name())));
-        };
-        let (began, mut back_off) = (self.line.now(), Duration::from_millis(250));
-        while self.line.now().saturating_sub(began) < limit {
-            self.line.sleep(back_off);
-            back_off = (back_off * 2).min(LONGEST_BACK_OFF);
-            if let Err(error) = self.reconnect() {
-                self.note(format!("not yet: {error}"));
-                continue;
-            }
-            let after = self.line.now().saturating_sub(began).as_secs_f64();
-            self.note(format!("connected again after {after:.1} s; set-points are zero"));
-            return Ok(());
-        }
-        self.lost = Some(format!("{}: {why}, and no way back within {} s", self.line.name(), limit.as_secs()));
-        Err(RobotError::Link(self.lost.clone().unwrap_or_default()))
-    }
-
-    fn reconnect(&mut self) -> Result<(), ConnectError> {
-        self.line.reopen().map_err(|error| ConnectError::Line(self.line.name(), error))?;
-        self.decoder.clear();
-        (self.told, self.wants_motors) = ((0, 0), false);
-        let shaken = Handshake::new(&mut self.line, &mut self.decoder).run();
-        shaken.map_err(|error| ConnectError::Handshake(self.line.name(), error))?;
-        self.heard_at = self.line.now();
-        self.set_up()
-    }
-
-    /// Stops, waits until the robot stands, switches the motors off and says good-bye. Safe to call twice.
-    pub fn close(&mut self) {
-        if std::mem::replace(&mut self.closed, true) || self.lost.is_some() {
-            return;
-        }
-        // A line that fails now leaves the rest to the robot's watchdog.
-        let _ = self.say_good_bye();
-    }
-
-    fn say_good_bye(&mut self) -> io::Result<()> {
-        self.ask = None;
-        self.told = (1, 1);
-        let until = self.line.now() + STANDS_WITHIN;
-        let sips = self.report.sips;
-        loop {
-            self.steer()?;
-            self.read(TURN)?;
-            let standing = self.report.velocity.0.abs() < 0.005 && self.report.velocity.1.abs() < 0.01;
-            if (standing && self.report.sips > sips) || self.line.now() >= until {
-                break;
-            }
-        }
-        self.send_spaced(&Command::int(number::ENABLE, 0))?;
-        self.send_spaced(&Command::bare(number::CLOSE))?;
-        self.line.sleep(SPACING);
-        Ok(())
     }
 }
 

@@ -6,8 +6,10 @@
 
 mod base;
 mod connection;
+mod ending;
 mod guard;
 mod handshake;
+mod intake;
 mod odometry;
 mod report;
 mod settings;

@@ -1,6 +1,7 @@
 //! What carries the bytes: serial, TCP, a pseudo-terminal, or memory.
 
 mod address;
+mod dry;
 mod memory;
 mod pty;
 mod serial;
@@ -10,6 +11,7 @@ use std::io;
 use std::time::Duration;
 
 pub use address::{Address, AddressError};
+pub use dry::DryLine;
 pub use memory::MemoryLine;
 pub use pty::PtyLine;
 pub use serial::{BAUD_RATES, SerialLine};

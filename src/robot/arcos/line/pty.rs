@@ -72,9 +72,10 @@ impl Line for PtyLine {
         let wait =
             rustix::time::Timespec { tv_sec: wait.as_secs() as i64, tv_nsec: i64::from(wait.subsec_nanos()) as _ };
         let mut waiting = [PollFd::from_borrowed_fd(self.master.as_fd(), PollFlags::IN)];
-        if poll(&mut waiting, Some(&wait))? == 0 {
-            return Ok(0);
-        }
+        match poll(&mut waiting, Some(&wait)) {
+            Ok(0) | Err(rustix::io::Errno::INTR) => return Ok(0),
+            polled => polled?,
+        };
         let count = self.master.read(buffer)?;
         self.garble(&mut buffer[..count]);
         Ok(count)

@@ -116,6 +116,21 @@ impl Server {
         self.base.truth()
     }
 
+    /// Where it is by its own odometry, in the map's frame.
+    pub fn odometry(&self) -> Pose {
+        self.base.pose()
+    }
+
+    /// Time on its clock.
+    pub fn now(&self) -> Duration {
+        self.clock
+    }
+
+    /// Information packets sent.
+    pub fn sip_count(&self) -> u64 {
+        self.sips
+    }
+
     /// Velocity as the base measures it, m/s and rad/s.
     pub fn velocity(&self) -> (f64, f64) {
         self.base.velocity()

@@ -1,0 +1,75 @@
+//! Random numbers by the hundred thousand a frame: a table of normal deviates, read at random places.
+
+use std::sync::OnceLock;
+
+/// Entries of the table.
+const COUNT: usize = 4096;
+
+/// Quantiles of the standard normal distribution.
+pub(super) struct Gaussians {
+    table: Vec<f32>,
+}
+
+impl Gaussians {
+    /// The table, made once.
+    pub fn shared() -> &'static Self {
+        static SHARED: OnceLock<Gaussians> = OnceLock::new();
+        SHARED.get_or_init(|| Self { table: (0..COUNT).map(|i| quantile((i as f64 + 0.5) / COUNT as f64)).collect() })
+    }
+
+    /// The deviate that the low twelve bits pick.
+    pub fn pick(&self, bits: u32) -> f32 {
+        self.table[bits as usize % COUNT]
+    }
+}
+
+/// The standard normal quantile, by bisection of the distribution function.
+fn quantile(probability: f64) -> f32 {
+    let (mut low, mut high) = (-6.0, 6.0);
+    for _ in 0..50 {
+        let middle = (low + high) / 2.0;
+        if normal_cdf(middle) < probability { low = middle } else { high = middle }
+    }
+    low as f32
+}
+
+/// Abramowitz & Stegun 26.2.17, error below 7.5e-8.
+fn normal_cdf(x: f64) -> f64 {
+    let t = 1.0 / (1.0 + 0.231_641_9 * x.abs());
+    let series =
+        t * (0.319_381_530 + t * (-0.356_563_782 + t * (1.781_477_937 + t * (-1.821_255_978 + t * 1.330_274_429))));
+    let tail = (-x * x / 2.0).exp() / std::f64::consts::TAU.sqrt() * series;
+    if x >= 0.0 { 1.0 - tail } else { tail }
+}
+
+/// A fast stream of bits (xorshift64*, Vigna 2016), seeded from the trial's own stream.
+pub(super) struct Scatter {
+    state: u64,
+}
+
+impl Scatter {
+    pub fn new(seed: u64) -> Self {
+        Self { state: seed | 1 }
+    }
+
+    /// The next 32 bits.
+    pub fn bits(&mut self) -> u32 {
+        self.state ^= self.state >> 12;
+        self.state ^= self.state << 25;
+        self.state ^= self.state >> 27;
+        (self.state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 32) as u32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_deviates_have_mean_zero_and_variance_one() {
+        let table = &Gaussians::shared().table;
+        let mean = table.iter().sum::<f32>() / COUNT as f32;
+        let variance = table.iter().map(|v| v * v).sum::<f32>() / COUNT as f32;
+        assert!(mean.abs() < 1e-3 && (variance - 1.0).abs() < 5e-3, "{mean} {variance}");
+    }
+}

@@ -1,0 +1,165 @@
+//! What stands in which room.
+
+use rand_chacha::ChaCha8Rng;
+
+use super::room::FurnishedRoom;
+use crate::geometry::Pose;
+use crate::world::OBJECTS;
+use crate::world::camera::{Finish, Frustum, Texture};
+use crate::world::families::{self, Dice, Orientation, Piece};
+
+/// What can stand at a wall in each kind of room, and the chance of each.
+const AT_WALLS: [&[(&str, f64)]; 4] = [
+    &[("wardrobe", 0.8), ("dresser", 0.6), ("bookshelf", 0.3), ("desk", 0.4), ("armchair", 0.2), ("shelf", 0.2)],
+    &[("tv_stand", 0.8), ("bookshelf", 0.5), ("cabinet", 0.4), ("shelf", 0.3), ("armchair", 0.3), ("lamp", 0.4)],
+    &[("cabinet", 0.6), ("shelf", 0.4), ("dresser", 0.3), ("tv_stand", 0.2), ("bookshelf", 0.3), ("lamp", 0.3)],
+    &[("bookshelf", 0.7), ("shelf", 0.5), ("cabinet", 0.4), ("couch", 0.3), ("wardrobe", 0.2), ("lamp", 0.3)],
+];
+
+/// A room for sleeping, living, dining or working, with some pieces that belong and some that need not.
+pub(super) fn furnished_room(rng: &mut ChaCha8Rng) -> FurnishedRoom {
+    let mut furnisher = Furnisher::new(rng);
+    let kind = furnisher.dice().whole(0, 3);
+    match kind {
+        0 => furnisher.sleeping(),
+        1 => furnisher.living(),
+        2 => furnisher.dining(),
+        _ => furnisher.working(),
+    }
+    for (category, chance) in AT_WALLS[kind] {
+        if furnisher.dice().chance(*chance) {
+            furnisher.at_wall(category);
+        }
+    }
+    for _ in 0..furnisher.dice().whole(0, 3) {
+        let category = furnisher.dice().pick(&families::FAMILIES);
+        furnisher.in_the_open(category);
+    }
+    furnisher.set_things_on_tops();
+    furnisher.room
+}
+
+struct Furnisher<'r> {
+    rng: &'r mut ChaCha8Rng,
+    room: FurnishedRoom,
+}
+
+impl<'r> Furnisher<'r> {
+    fn new(rng: &'r mut ChaCha8Rng) -> Self {
+        let dice = &mut Dice::new(rng);
+        let half = (dice.between(1.5, 3.6), dice.between(1.4, 3.0));
+        let room = FurnishedRoom { half, height: dice.between(2.3, 3.0), placed: Vec::new() };
+        Self { rng, room }
+    }
+
+    fn dice(&mut self) -> Dice<'_> {
+        Dice::new(self.rng)
+    }
+
+    fn at_wall(&mut self, category: &str) -> Option<usize> {
+        let piece = families::sample(category, self.rng)?;
+        self.room.at_wall(piece, &mut Dice::new(self.rng))
+    }
+
+    fn in_the_open(&mut self, category: &str) -> Option<usize> {
+        let piece = families::sample(category, self.rng)?;
+        self.room.in_the_open(piece, &mut Dice::new(self.rng))
+    }
+
+    fn sleeping(&mut self) {
+        let Some(bed) = self.at_wall("bed") else { return };
+        for _ in 0..self.dice().whole(0, 2) {
+            if let Some(piece) = families::sample("nightstand", self.rng) {
+                self.room.beside(bed, piece, &mut Dice::new(self.rng));
+            }
+        }
+    }
+
+    fn living(&mut self) {
+        let at_wall = self.dice().chance(0.6);
+        let Some(couch) = (if at_wall { self.at_wall("couch") } else { self.in_the_open("couch") }) else { return };
+        let table = self.dice().pick(&["coffee_table", "coffee_table", "table"]);
+        if self.dice().chance(0.75)
+            && let Some(piece) = families::sample(table, self.rng)
+        {
+            self.room.before(couch, piece, &mut Dice::new(self.rng));
+        }
+        for _ in 0..self.dice().whole(0, 2) {
+            let seat = self.dice().pick(&["armchair", "armchair", "couch", "stool"]);
+            self.in_the_open(seat);
+        }
+    }
+
+    fn dining(&mut self) {
+        if let Some(table) = self.in_the_open("table") {
+            let kind = self.dice().pick(&["chair", "chair", "chair", "stool"]);
+            let seats = self.dice().whole(1, 6);
+            self.seat(table, kind, seats);
+        }
+    }
+
+    fn working(&mut self) {
+        let at_wall = self.dice().chance(0.7);
+        if let Some(desk) = if at_wall { self.at_wall("desk") } else { self.in_the_open("desk") } {
+            let seats = self.dice().whole(0, 2);
+            self.seat(desk, "chair", seats);
+        }
+    }
+
+    /// The same seat, so many times, around a table.
+    fn seat(&mut self, table: usize, category: &str, seats: usize) {
+        let Some(seat) = families::sample(category, self.rng) else { return };
+        for _ in 0..seats {
+            self.room.at_table(table, seat.clone(), &mut Dice::new(self.rng));
+        }
+    }
+
+    /// Televisions on their stands, lamps and small things on tables.
+    fn set_things_on_tops(&mut self) {
+        for holder in 0..self.room.placed.len() {
+            let category = self.room.placed[holder].piece.category;
+            if category == "tv_stand" && self.dice().chance(0.6) {
+                let set = television(&mut self.dice());
+                self.room.on_top(holder, set, false, &mut Dice::new(self.rng));
+                continue;
+            }
+            if !matches!(category, "table" | "coffee_table" | "desk" | "nightstand" | "dresser") {
+                continue;
+            }
+            let lamps = if category == "nightstand" { 0.5 } else { 0.12 };
+            if self.dice().chance(lamps)
+                && let Some(lamp) = families::sample("table_lamp", self.rng)
+            {
+                self.room.on_top(holder, lamp, false, &mut Dice::new(self.rng));
+                continue;
+            }
+            if self.dice().chance(0.45) {
+                let thing = small_thing(&mut self.dice());
+                self.room.on_top(holder, thing, true, &mut Dice::new(self.rng));
+            }
+        }
+    }
+}
+
+fn television(dice: &mut Dice) -> Piece {
+    let (wide, high) = (dice.between(0.6, 1.25), dice.between(0.4, 0.75));
+    let finish = Finish::new([24, 24, 27], Texture::Plain);
+    let bar = |x: f64, y: f64, z: (f64, f64)| {
+        let outline = crate::geometry::Polygon::rectangle(Pose::default(), x, y).corners().to_vec();
+        Frustum { bottom: outline.clone(), top: outline, low: z.0, high: z.1, finish }
+    };
+    let parts = vec![bar(0.2, 0.4 * wide, (0.0, 0.02)), bar(0.04, 0.1, (0.02, 0.1)), bar(0.05, wide, (0.08, high))];
+    Piece::new("tv", Orientation::Facing, parts)
+}
+
+/// One of the small objects, as scenes have them.
+fn small_thing(dice: &mut Dice) -> Piece {
+    let object = &OBJECTS[dice.whole(0, OBJECTS.len() - 1)];
+    let solids = crate::world::furniture::object_solids(object.name, Pose::default(), object.size, 0.0, object.color);
+    let parts = solids.iter().map(|solid| {
+        let outline = solid.footprint().corners().to_vec();
+        let finish = Finish::new(solid.color(), Texture::Plain);
+        Frustum { bottom: outline.clone(), top: outline, low: solid.bottom(), high: solid.top(), finish }
+    });
+    Piece::new(object.name, Orientation::None, parts.collect())
+}
