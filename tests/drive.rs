@@ -43,7 +43,10 @@ fn an_object_that_is_not_there_is_not_found_and_the_record_says_why() {
     let ran = run("drive", &[], planned("find the umbrella on a table in the bedroom")).expect_code(0);
     let trial = &ran.records()[0]["trial"];
     assert_eq!(trial["outcome"], "not_found");
-    assert!(trial["why"].as_str().is_some_and(|why| why.contains("no umbrella")), "{trial}");
+    assert!(
+        trial["why"].as_str().is_some_and(|why| why.contains("no umbrella") && why.contains("looked at;")),
+        "{trial}"
+    );
 }
 
 #[test]
@@ -75,4 +78,28 @@ fn the_modified_home_is_driven_as_well() {
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/apartment-modified.scene.json");
     let ran = run("drive", &["--scene", scene], planned("find the monitor in the bedroom")).expect_code(0);
     assert_eq!(ran.records()[0]["trial"]["outcome"], "found");
+}
+
+#[test]
+fn the_robots_luck_hangs_on_the_seed_and_not_without_noise() {
+    let plan = planned("find the laptop in the living room");
+    let way = |arguments: &[&str]| run("drive", arguments, &plan).expect_code(0).out;
+    assert_ne!(way(&["--seed", "1"]), way(&["--seed", "2"]));
+    assert_eq!(way(&["--seed", "1", "--noise", "off"]), way(&["--seed", "2", "--noise", "off"]));
+}
+
+#[test]
+fn a_scene_says_how_imperfect_the_robot_is_there() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = include_str!("../fixtures/apartment.scene.json");
+    let exact = scene.replacen('{', "{\"noise\": {\"start_m\": 0, \"start_rad\": 0, \"slip\": 0.05},", 1);
+    let path = folder.path().join("slippery.json");
+    std::fs::write(&path, &exact).expect("written");
+    let plan = planned("find the laptop in the living room");
+    let scene = path.to_str().expect("UTF-8");
+    let slippery = run("drive", &["--scene", scene], &plan).expect_code(0).out;
+    assert_ne!(slippery, run("drive", &[], &plan).out);
+    std::fs::write(&path, exact.replace("slip", "glide")).expect("written");
+    let ran = run("drive", &["--scene", scene], &plan).expect_code(1);
+    assert!(ran.err.contains("glide"), "{}", ran.err);
 }

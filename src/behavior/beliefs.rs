@@ -1,26 +1,50 @@
 //! What the robot has come to believe of the furniture and the objects.
 
+use std::collections::BTreeMap;
+
 use crate::geometry::{Polygon, Vec2, vec2};
 use crate::perception::{ObjectSighting, View};
 use crate::record::Detection;
 
-/// Two detections closer than this, or overlapping, are one piece of furniture.
+/// Two detections closer than this, or overlapping, are one piece of furniture, metres.
 const SAME_PLACE_M: f64 = 0.35;
+/// A look at least this sure, against the surest so far, moves what is believed of place and outline.
+const AS_GOOD: f64 = 0.9;
+/// How far one such look moves it, a share of the difference.
+const BLEND: f64 = 0.5;
+/// What moved by less has not moved, metres.
+const MOVED_M: f64 = 0.02;
 
 /// A piece of furniture the robot has seen.
 #[derive(Clone, Debug)]
 pub struct Furniture {
     /// Counted in the order first seen.
     pub number: usize,
-    /// The best look at it.
+    /// The best look at it, under the category that most looks speak for.
     pub detection: Detection,
     /// Its outline on the floor.
     pub footprint: Polygon,
     /// Whether the object was looked for on it, in vain.
     pub searched: bool,
+    /// What all looks together say of its category: probabilities added up.
+    votes: BTreeMap<String, f64>,
+    looks: f64,
 }
 
 impl Furniture {
+    fn new(number: usize, detection: &Detection, footprint: Polygon) -> Self {
+        let mut furniture = Self {
+            number,
+            detection: detection.clone(),
+            footprint,
+            searched: false,
+            votes: BTreeMap::new(),
+            looks: 0.0,
+        };
+        furniture.count(detection);
+        furniture
+    }
+
     /// The middle of the footprint.
     pub fn centre(&self) -> Vec2 {
         vec2(self.detection.x, self.detection.y)
@@ -29,6 +53,53 @@ impl Furniture {
     /// Category and number, for people: "coffee table 2".
     pub fn label(&self) -> String {
         format!("{} {}", self.detection.category.replace('_', " "), self.number)
+    }
+
+    /// How sure the robot is that this is there and of a category for which `is` holds, 0 to 1, over all looks.
+    pub fn belief(&self, is: impl Fn(&str) -> bool) -> f64 {
+        let votes: f64 = self.votes.iter().filter(|(category, _)| is(category)).map(|(_, votes)| votes).sum();
+        (votes / self.looks.max(1e-9)).min(1.0)
+    }
+
+    /// Adds a look's word on the category; the likeliest by all looks is what the piece is called.
+    fn count(&mut self, detection: &Detection) {
+        self.looks += 1.0;
+        if detection.scores.is_empty() {
+            *self.votes.entry(detection.category.clone()).or_default() += detection.confidence;
+        }
+        for (category, score) in &detection.scores {
+            *self.votes.entry(category.clone()).or_default() += score;
+        }
+        // The first of equals in the alphabet, so that the same looks give the same name.
+        let best = self.votes.iter().fold(None, |best: Option<(&String, f64)>, (category, &votes)| match best {
+            Some((_, most)) if most >= votes => best,
+            _ => Some((category, votes)),
+        });
+        if let Some((category, _)) = best {
+            self.detection.category.clone_from(category);
+        }
+    }
+
+    /// Takes in another look; true when the piece is not where it was believed to be.
+    fn look_again(&mut self, detection: &Detection, footprint: Polygon) -> bool {
+        let from = self.centre();
+        if detection.confidence >= AS_GOOD * self.detection.confidence {
+            let shift = (from - vec2(detection.x, detection.y)) * (1.0 - BLEND);
+            self.footprint = Polygon::new(footprint.corners().iter().map(|corner| corner + shift).collect());
+            let yaw = detection.yaw.or(self.detection.yaw);
+            let confidence = detection.confidence.max(self.detection.confidence);
+            self.detection = Detection { yaw, confidence, ..detection.clone() };
+            self.detection.x += shift.x;
+            self.detection.y += shift.y;
+        }
+        self.count(detection);
+        (self.centre() - from).norm() > MOVED_M
+    }
+
+    fn is_at(&self, centre: Vec2, footprint: &Polygon) -> bool {
+        (self.centre() - centre).norm() < SAME_PLACE_M
+            || self.footprint.contains(centre)
+            || footprint.contains(self.centre())
     }
 }
 
@@ -64,19 +135,13 @@ impl Beliefs {
         let footprint = Polygon::new(detection.footprint.iter().map(|&[x, y]| vec2(x, y)).collect());
         let centre = vec2(detection.x, detection.y);
         // Associated by place, never by category: a label that flickers must not make a second item.
-        let same = |known: &&mut Furniture| {
-            (known.centre() - centre).norm() < SAME_PLACE_M || known.footprint.contains(centre)
-        };
-        if let Some(known) = self.furniture.iter_mut().find(same) {
-            let moved = (known.centre() - centre).norm() > 0.02;
-            if detection.confidence >= known.detection.confidence {
-                known.detection = detection.clone();
-                known.footprint = footprint;
-            }
-            return moved;
+        let distance = |known: &Furniture| (known.centre() - centre).norm();
+        let near = self.furniture.iter_mut().filter(|known| known.is_at(centre, &footprint));
+        if let Some(known) = near.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
+            return known.look_again(detection, footprint);
         }
         let number = 1 + self.furniture.iter().filter(|f| f.detection.category == detection.category).count();
-        self.furniture.push(Furniture { number, detection: detection.clone(), footprint, searched: false });
+        self.furniture.push(Furniture::new(number, detection, footprint));
         true
     }
 
@@ -128,6 +193,29 @@ mod tests {
         }
         assert_eq!(beliefs.furniture.len(), 1);
         assert_eq!(beliefs.furniture[0].detection.category, "table");
+    }
+
+    #[test]
+    fn the_category_is_what_most_looks_say_and_the_others_are_not_forgotten() {
+        let mut beliefs = Beliefs::default();
+        for (category, confidence) in [("chair", 0.8), ("table", 0.7), ("table", 0.7)] {
+            beliefs.take_in(&View { furniture: vec![detection(category, 1.0, confidence)], objects: Vec::new() });
+        }
+        let piece = &beliefs.furniture[0];
+        assert_eq!(piece.detection.category, "table");
+        assert!(piece.belief(|category| category == "table") > piece.belief(|category| category == "chair"));
+        assert!(piece.belief(|category| category == "chair") > 0.2);
+    }
+
+    #[test]
+    fn a_piece_seen_a_little_elsewhere_moves_and_stays_one() {
+        let mut beliefs = Beliefs::default();
+        for x in [1.0, 1.1] {
+            beliefs.take_in(&View { furniture: vec![detection("table", x, 1.0)], objects: Vec::new() });
+        }
+        assert_eq!(beliefs.furniture.len(), 1);
+        assert!((beliefs.furniture[0].centre().x - 1.05).abs() < 1e-9);
+        assert!((beliefs.furniture[0].footprint.centroid().x - 1.05).abs() < 1e-9);
     }
 
     #[test]

@@ -42,6 +42,11 @@ impl Journal {
         }
     }
 
+    /// "During search: ", when an action is open.
+    pub fn during(&self) -> String {
+        self.open.as_ref().map(|(action, _, _)| format!("during {action}: ")).unwrap_or_default()
+    }
+
     /// The robot is here; kept when the last point is old enough.
     pub fn passed(&mut self, time_s: f64, pose: Pose) {
         if self.path.last().is_none_or(|last| time_s - last.0.0 >= PATH_SPACING_S - 1e-9) {

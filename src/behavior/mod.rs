@@ -10,20 +10,25 @@
 
 mod approach;
 mod beliefs;
+mod driving;
 mod executive;
 mod journal;
+mod localizer;
 pub mod motion;
 mod pilot;
 mod regions;
 mod relation;
 mod route;
 pub mod search;
+mod static_tier;
 mod watcher;
 
 pub use approach::viewpoints;
 pub use beliefs::{Beliefs, Furniture};
 pub use executive::{Executive, Options, Report};
 pub use journal::Journal;
+pub use localizer::Localizer;
 pub use pilot::{Halt, SWING_M, grid_of};
+pub use relation::Place;
 pub use route::{length, route};
 pub use watcher::{Silent, Watcher};

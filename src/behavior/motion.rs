@@ -22,6 +22,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::geometry::{Polygon, Pose, Vec2, cross, vec2, wrap_angle};
 use crate::record::{Action, Amount, Direction};
+use crate::world::RoomMap;
 
 /// A walk without a stated end, metres.
 const WALK_M: f64 = 2.0;
@@ -141,6 +142,13 @@ fn beside(footprint: &Polygon, angle: f64) -> Vec2 {
 }
 
 impl RoomFrame {
+    /// The frame of a room of the map; about `here` where the map lacks its outline or its door.
+    pub fn of(map: &RoomMap, room: &str, here: Pose) -> Self {
+        let outline = map.room(room).map(|room| room.polygon());
+        let entry = map.entry_pose(room).unwrap_or(here);
+        Self { outline: outline.unwrap_or_else(|| Polygon::rectangle(here, 1.0, 1.0)), entry }
+    }
+
     /// How far the room reaches along the entry axis and across it (to the left), from its entry pose: least, most.
     pub fn extent(&self) -> ((f64, f64), (f64, f64)) {
         let start = ((f64::INFINITY, f64::NEG_INFINITY), (f64::INFINITY, f64::NEG_INFINITY));

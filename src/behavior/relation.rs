@@ -13,6 +13,12 @@ const BESIDE_HALVES_M: f64 = 0.6;
 /// "Left of", "behind": a relation to something far away says little; halves with every so many metres.
 const RELATED_HALVES_M: f64 = 2.5;
 
+/// "On the right" holds fully up to this far off square right, and no more at all from there on, radians.
+const THERE_RAD: f64 = PI / 4.0;
+const NOT_THERE_RAD: f64 = 1.75;
+/// "At the left wall" halves with every so many metres from that wall.
+const AT_WALL_HALVES_M: f64 = 1.5;
+
 /// Where the words are read: the room, and the robot's pose when it reached them.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
@@ -80,7 +86,7 @@ pub fn to_robot(point: Vec2, direction: Direction, place: Place) -> f64 {
         }
     };
     let deviation = crate::geometry::angle_between(place.arrived.bearing_to(point), off);
-    (1.0 - deviation / FRAC_PI_2).max(0.0) * halving(place.arrived.distance_to(point), 2.0 * RELATED_HALVES_M)
+    ((NOT_THERE_RAD - deviation) / (NOT_THERE_RAD - THERE_RAD)).clamp(0.0, 1.0)
 }
 
 /// How well a candidate fits a part of the room, a wall, or the door.
@@ -91,6 +97,10 @@ pub fn to_room(reference: &str, candidate: &Furniture, direction: Direction, pla
     match (reference, direction) {
         ("door", _) => halving(place.room.entry.distance_to(candidate.centre()), RELATED_HALVES_M),
         ("wall", Direction::Side) => halving(wall_gap(candidate, place), BESIDE_HALVES_M),
+        ("wall", Direction::Left) => halving(left - at.y, AT_WALL_HALVES_M),
+        ("wall", Direction::Right) => halving(at.y - right, AT_WALL_HALVES_M),
+        ("wall", Direction::Back) => halving(far - at.x, AT_WALL_HALVES_M),
+        ("wall", Direction::Front) => halving(at.x - near, AT_WALL_HALVES_M),
         (_, Direction::Back) => share(near, far, at.x),
         (_, Direction::Front) => share(far, near, at.x),
         (_, Direction::Left) => share(right, left, at.y),

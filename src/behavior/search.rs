@@ -4,7 +4,7 @@ use super::relation::{self, Place};
 use super::{Beliefs, Furniture};
 use crate::geometry::vec2;
 use crate::language::{Class, Lexicon};
-use crate::record::{Direction, Frame, SearchPair};
+use crate::record::{Action, Direction, Frame, Plan, SearchPair};
 
 /// What a reading in the first, second, third … frame counts: the likeliest is believed most.
 const FRAME_WEIGHTS: [f64; 4] = [1.0, 0.85, 0.75, 0.65];
@@ -14,6 +14,15 @@ const UNSEEN: f64 = 0.5;
 const FLOOR: f64 = 0.05;
 /// An attribute that was said and not seen.
 const ATTRIBUTE_MISSED: f64 = 0.85;
+/// A category that the looks at a piece speak for by less than this is not considered.
+const DOUBTFUL: f64 = 0.2;
+/// From here on the category is not in doubt.
+const SURE: f64 = 0.98;
+/// A pair that the best candidate fits by less than this is not fulfilled.
+const UNFULFILLED: f64 = 0.2;
+/// What a candidate behind the robot counts against one ahead: when nothing else was said, and where it breaks ties.
+const SIDEWAYS_ALONE: f64 = 0.2;
+const SIDEWAYS: f64 = 0.7;
 /// Nearness of a candidate halves its preference with every so many metres.
 const NEAR_HALVES_M: f64 = 8.0;
 
@@ -32,6 +41,22 @@ pub struct Wanted {
     pub one_frame: bool,
     /// By distance alone, whatever the heading.
     pub nearest_first: bool,
+}
+
+impl Wanted {
+    /// What the plan's search asks for.
+    pub fn of_plan(plan: &Plan) -> Option<Self> {
+        plan.actions.iter().find_map(|action| match action {
+            Action::Search { target, attributes, ordinal, pairs } => Some(Self {
+                target: target.clone(),
+                attributes: attributes.clone(),
+                ordinal: *ordinal,
+                pairs: pairs.clone(),
+                ..Self::default()
+            }),
+            _ => None,
+        })
+    }
 }
 
 /// A candidate with its score and the reading behind it.
@@ -70,13 +95,15 @@ pub fn rank(beliefs: &Beliefs, wanted: &Wanted, place: Place, lexicon: &Lexicon)
 
 /// Furniture of the class the target's noun names: people call a nightstand a table, and a desk too.
 fn candidates(beliefs: &Beliefs, target: Option<&str>, lexicon: &Lexicon) -> Vec<usize> {
-    let class = target.and_then(|noun| lexicon.class_of(noun)).unwrap_or(Class::TableLike);
     (0..beliefs.furniture.len())
-        .filter(|&i| {
-            let category = beliefs.furniture[i].detection.category.as_str();
-            lexicon.class_of(category) == Some(class) || Some(category) == target
-        })
+        .filter(|&i| belief_in_target(&beliefs.furniture[i], target, lexicon) >= DOUBTFUL)
         .collect()
+}
+
+/// How sure the robot is that a piece is what the target's noun names.
+fn belief_in_target(furniture: &Furniture, target: Option<&str>, lexicon: &Lexicon) -> f64 {
+    let class = target.and_then(|noun| lexicon.class_of(noun)).unwrap_or(Class::TableLike);
+    furniture.belief(|category| lexicon.class_of(category) == Some(class) || Some(category) == target)
 }
 
 fn factors(
@@ -91,7 +118,17 @@ fn factors(
     let mut factors: Vec<Factor> =
         wanted.pairs.iter().map(|pair| pair_factor(index, beliefs, pair, wanted.one_frame, place, lexicon)).collect();
     let by_robot = wanted.pairs.iter().any(|pair| pair.pair.reference == "robot");
-    factors.push(nearness(candidate, place, by_robot || wanted.nearest_first));
+    let sideways = match () {
+        // A stated direction from the robot already says where to look.
+        () if by_robot || wanted.nearest_first => 1.0,
+        () if wanted.pairs.is_empty() => SIDEWAYS_ALONE,
+        () => SIDEWAYS,
+    };
+    factors.push(nearness(candidate, place, sideways));
+    let belief = belief_in_target(candidate, wanted.target.as_deref(), lexicon);
+    if belief < SURE {
+        factors.push(Factor { value: belief, reading: format!("{belief:.2} sure of what it is") });
+    }
     factors.extend(wanted.attributes.iter().map(|attribute| attribute_factor(candidate, attribute)));
     if let Some(ordinal) = wanted.ordinal {
         factors.push(ordinal_factor(index, beliefs, candidates, ordinal, place));
@@ -100,11 +137,10 @@ fn factors(
 }
 
 /// Nearest to the robot's heading first, and nearer before farther.
-fn nearness(candidate: &Furniture, place: Place, any_heading: bool) -> Factor {
+fn nearness(candidate: &Furniture, place: Place, sideways: f64) -> Factor {
     let bearing = place.arrived.bearing_to(candidate.centre());
     let near = 0.5_f64.powf(place.arrived.distance_to(candidate.centre()) / NEAR_HALVES_M);
-    // A stated direction from the robot already says where to look.
-    let ahead = if any_heading { 1.0 } else { 0.2 + 0.8 * (bearing / 2.0).cos().powi(2) };
+    let ahead = sideways + (1.0 - sideways) * (bearing / 2.0).cos().powi(2);
     Factor { value: near * ahead, reading: format!("{:.0}° off the heading", bearing.to_degrees()) }
 }
 
@@ -149,41 +185,52 @@ fn furniture_factor(
     lexicon: &Lexicon,
 ) -> Factor {
     let candidate = &beliefs.furniture[index];
-    let references: Vec<&Furniture> =
-        references(beliefs, noun, lexicon).into_iter().filter(|&i| i != index).map(|i| &beliefs.furniture[i]).collect();
+    let others = references(beliefs, noun, lexicon).into_iter().filter(|&(i, _)| i != index);
+    let references: Vec<(&Furniture, f64)> = others.map(|(i, belief)| (&beliefs.furniture[i], belief)).collect();
     let phrase = pair.pair.phrase();
     if references.is_empty() {
         return object_factor(candidate, beliefs, noun, &phrase);
     }
     if pair.pair.direction == Direction::Between {
+        let references: Vec<&Furniture> = references.iter().map(|(reference, _)| *reference).collect();
         let value = best_between(candidate, &references);
         return Factor { value, reading: format!("{phrase} {value:.2}") };
     }
     let frames: Vec<Frame> = if pair.frames.is_empty() { vec![pair.pair.frame] } else { pair.frames.clone() };
     let tried = if one_frame { 1 } else { frames.len() };
-    let mut best = Factor { value: 0.0, reading: format!("{phrase} in no frame") };
+    let mut fits: Vec<(Frame, f64)> = Vec::new();
     for (&frame, &weight) in frames.iter().zip(&FRAME_WEIGHTS).take(tried) {
-        for reference in &references {
-            let fit = relation::to_furniture(candidate, reference, pair.pair.direction, frame, place);
-            let value = weight * fit.unwrap_or(0.0);
-            if value > best.value + 1e-9 {
-                best = Factor { value, reading: format!("{phrase} {value:.2} ({} frame)", frame.name()) };
-            }
-        }
+        let fit = |(reference, belief): &(&Furniture, f64)| {
+            belief * relation::to_furniture(candidate, reference, pair.pair.direction, frame, place).unwrap_or(0.0)
+        };
+        fits.push((frame, weight * references.iter().map(fit).fold(0.0, f64::max)));
     }
-    best
+    // A stable sort: of frames that fit alike the likelier stays first.
+    fits.sort_by(|a, b| b.1.total_cmp(&a.1));
+    in_frames(&phrase, &fits)
 }
 
-/// Furniture that a noun can refer to: of that category, else of its class.
-pub fn references(beliefs: &Beliefs, noun: &str, lexicon: &Lexicon) -> Vec<usize> {
-    let all = 0..beliefs.furniture.len();
-    let category = |i: usize| beliefs.furniture[i].detection.category.as_str();
-    let exact: Vec<usize> = all.clone().filter(|&i| category(i) == noun).collect();
+/// The best frame's fit, and by how much it beat the next.
+fn in_frames(phrase: &str, fits: &[(Frame, f64)]) -> Factor {
+    let Some(&(frame, value)) = fits.first() else {
+        return Factor { value: 0.0, reading: format!("{phrase} in no frame") };
+    };
+    let next = fits.get(1).map(|(frame, value)| format!(", {} {value:.2}", frame.name())).unwrap_or_default();
+    Factor { value, reading: format!("{phrase} {value:.2} ({} frame{next})", frame.name()) }
+}
+
+/// Furniture that a noun can refer to: what may be of that category, else of its class, with how sure the robot is.
+pub fn references(beliefs: &Beliefs, noun: &str, lexicon: &Lexicon) -> Vec<(usize, f64)> {
+    let believed = |is: &dyn Fn(&str) -> bool| -> Vec<(usize, f64)> {
+        let all = beliefs.furniture.iter().map(|furniture| furniture.belief(is)).enumerate();
+        all.filter(|(_, belief)| *belief >= DOUBTFUL).collect()
+    };
+    let exact = believed(&|category| category == noun);
     if !exact.is_empty() {
         return exact;
     }
     let Some(class) = lexicon.class_of(noun).filter(|class| *class != Class::Object) else { return Vec::new() };
-    all.filter(|&i| lexicon.class_of(category(i)) == Some(class)).collect()
+    believed(&|category| lexicon.class_of(category) == Some(class))
 }
 
 /// An object as landmark: seen, it is near or not; unseen, it says nothing.
@@ -195,6 +242,31 @@ fn object_factor(candidate: &Furniture, beliefs: &Beliefs, noun: &str, phrase: &
         }
         None => Factor { value: UNSEEN, reading: format!("{phrase} not seen") },
     }
+}
+
+/// At which pair a search in vain went wrong, and why; nothing when something fitted every pair.
+pub fn blame(beliefs: &Beliefs, wanted: &Wanted, place: Place, lexicon: &Lexicon) -> Option<String> {
+    let candidates = candidates(beliefs, wanted.target.as_deref(), lexicon);
+    if candidates.is_empty() {
+        let target = wanted.target.as_deref().unwrap_or("table").replace('_', " ");
+        return Some(format!("no {target} was seen"));
+    }
+    let best = |pair: &SearchPair| {
+        let fit = |&i: &usize| pair_factor(i, beliefs, pair, wanted.one_frame, place, lexicon).value;
+        candidates.iter().map(fit).fold(0.0, f64::max)
+    };
+    let unseen = |noun: &str| {
+        lexicon.class_of(noun).is_some_and(Class::is_furniture) && references(beliefs, noun, lexicon).is_empty()
+    };
+    wanted.pairs.iter().enumerate().find_map(|(i, pair)| {
+        let (phrase, reference) = (pair.pair.phrase(), pair.pair.reference.as_str());
+        if unseen(reference) {
+            return Some(format!("at pair {}, {phrase}: no {} was seen", i + 1, reference.replace('_', " ")));
+        }
+        let best = best(pair);
+        (best < UNFULFILLED)
+            .then(|| format!("at pair {}, {phrase}: nothing seen stands there, the best fits {best:.2}", i + 1))
+    })
 }
 
 fn best_between(candidate: &Furniture, references: &[&Furniture]) -> f64 {
@@ -209,4 +281,105 @@ fn best_between(candidate: &Furniture, references: &[&Furniture]) -> f64 {
 
 fn beside(candidate: &Furniture, reference: &Furniture) -> f64 {
     0.5_f64.powf(candidate.footprint.distance(&reference.footprint))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
+    use super::*;
+    use crate::behavior::motion::RoomFrame;
+    use crate::geometry::{Polygon, Pose};
+    use crate::perception::View;
+    use crate::planning::frames_to_try;
+    use crate::record::{Detection, Pair};
+
+    /// Entered northward; the robot looks north from the middle.
+    fn room() -> RoomFrame {
+        let outline = Polygon::rectangle(Pose::new(0.0, 4.0, FRAC_PI_2), 8.0, 8.0);
+        RoomFrame { outline, entry: Pose::new(0.0, 0.7, FRAC_PI_2) }
+    }
+
+    fn seen(pieces: &[(&str, f64, f64, Option<f64>)]) -> Beliefs {
+        let mut beliefs = Beliefs::default();
+        for &(category, x, y, yaw) in pieces {
+            let corners = [(-0.3, -0.3), (0.3, -0.3), (0.3, 0.3), (-0.3, 0.3)];
+            let detection = Detection {
+                category: category.to_string(),
+                confidence: 1.0,
+                scores: Default::default(),
+                x,
+                y,
+                yaw,
+                length: 0.6,
+                width: 0.6,
+                height: 0.5,
+                footprint: corners.map(|(dx, dy)| [x + dx, y + dy]).to_vec(),
+                attributes: Vec::new(),
+                why: String::new(),
+            };
+            beliefs.take_in(&View { furniture: vec![detection], objects: Vec::new() });
+        }
+        beliefs
+    }
+
+    fn pair(reference: &str, direction: Direction, frame: Frame) -> SearchPair {
+        let pair = Pair { reference: reference.to_string(), direction, frame, and: None, amount: None, ordinal: None };
+        SearchPair { frames: frames_to_try(&pair, Lexicon::embedded()), pair }
+    }
+
+    /// The pieces in the order in which they would be tried.
+    fn order(beliefs: &Beliefs, pairs: Vec<SearchPair>) -> Vec<usize> {
+        let wanted = Wanted { target: Some("table".to_string()), pairs, ..Wanted::default() };
+        let (room, arrived) = (room(), Pose::new(0.0, 3.0, FRAC_PI_2));
+        let ranked = rank(beliefs, &wanted, Place { room: &room, arrived }, Lexicon::embedded());
+        ranked.iter().map(|ranked| ranked.index).collect()
+    }
+
+    #[test]
+    fn on_the_right_looks_to_the_robots_right_as_it_arrived() {
+        let beliefs = seen(&[("table", -1.5, 3.0, None), ("table", 2.5, 3.5, None)]);
+        assert_eq!(order(&beliefs, vec![pair("robot", Direction::Right, Frame::Robot)])[0], 1);
+        assert_eq!(order(&beliefs, vec![pair("robot", Direction::Left, Frame::Robot)])[0], 0);
+    }
+
+    #[test]
+    fn with_nothing_said_the_table_nearest_to_the_heading_is_tried_first() {
+        let beliefs = seen(&[("table", 0.3, 1.0, None), ("table", 0.3, 5.2, None)]);
+        assert_eq!(order(&beliefs, Vec::new()), [1, 0]);
+    }
+
+    #[test]
+    fn at_the_left_wall_is_the_one_beside_it_not_the_one_half_way() {
+        let beliefs = seen(&[("table", -1.5, 4.5, None), ("table", -3.5, 3.0, None)]);
+        assert_eq!(order(&beliefs, vec![pair("wall", Direction::Left, Frame::Viewer)])[0], 1);
+    }
+
+    #[test]
+    fn a_relation_is_read_as_on_entering_first_and_by_the_items_own_front_next() {
+        // The couch looks north, away from the door: what is before it is behind it as on entering.
+        let beliefs =
+            seen(&[("table", 1.0, 3.5, None), ("couch", 1.0, 5.0, Some(FRAC_PI_2)), ("table", 1.0, 6.5, None)]);
+        let behind = pair("couch", Direction::Back, Frame::Viewer);
+        assert_eq!(order(&beliefs, vec![behind.clone()]), [2, 0]);
+        let only_front = seen(&[("table", 1.0, 3.5, None), ("couch", 1.0, 5.0, Some(FRAC_PI_2))]);
+        let wanted = Wanted { pairs: vec![behind], ..Wanted::default() };
+        let (room, arrived) = (room(), Pose::new(0.0, 3.0, FRAC_PI_2));
+        let ranked = rank(&only_front, &wanted, Place { room: &room, arrived }, Lexicon::embedded());
+        assert!(ranked[0].reading.contains("intrinsic frame, viewer 0.00"), "{}", ranked[0].reading);
+    }
+
+    #[test]
+    fn a_search_in_vain_is_blamed_on_the_first_pair_that_nothing_fits() {
+        let beliefs = seen(&[("table", -1.5, 3.0, None)]);
+        let (room, arrived) = (room(), Pose::new(0.0, 3.0, FRAC_PI_2));
+        let place = Place { room: &room, arrived };
+        let because = |pairs| blame(&beliefs, &Wanted { pairs, ..Wanted::default() }, place, Lexicon::embedded());
+        let left = pair("robot", Direction::Left, Frame::Robot);
+        assert_eq!(because(vec![left.clone()]), None);
+        let couch = because(vec![left, pair("couch", Direction::Back, Frame::Viewer)]);
+        assert_eq!(couch.as_deref(), Some("at pair 2, back of the couch: no couch was seen"));
+        let right = because(vec![pair("robot", Direction::Right, Frame::Robot)]).unwrap_or_default();
+        assert!(right.starts_with("at pair 1, right of the robot: nothing seen stands there"), "{right}");
+    }
 }

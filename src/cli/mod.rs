@@ -17,6 +17,7 @@ mod program;
 mod progress;
 mod scores;
 mod source;
+mod threads;
 
 pub use arguments::{ColorChoice, Common, Format};
 pub use diagnostic::{Diagnostic, Reporter};
@@ -31,3 +32,4 @@ pub use program::{Program, command_of, main};
 pub use progress::Progress;
 pub use scores::{Table, load_gold, read_lines, write_scores};
 pub use source::Source;
+pub use threads::on_threads;

@@ -6,7 +6,8 @@ use serde::Deserialize;
 
 use super::brackets::{Bracket, brackets_of};
 use super::labelled::parse_tree;
-use crate::record::{Direction, Node, ObjectSlot, RoomSlot, Tag};
+use super::token_gold::{TokenEntry, TokenGrounding, grounding_of_tokens, tag_of};
+use crate::record::{Direction, Grounding, Node, ObjectSlot, RoomSlot, Tag};
 
 /// What a description is labelled as.
 #[derive(Clone, Debug, Default)]
@@ -29,6 +30,8 @@ pub struct Gold {
     pub has_target: bool,
     /// References and directions, sorted.
     pub pairs: Vec<(String, Direction)>,
+    /// What it means, as the stages have it; nothing where it is not labelled.
+    pub grounding: Option<Grounding>,
     /// Ids of the furniture that the words allow.
     pub expect: Vec<String>,
 }
@@ -70,32 +73,6 @@ struct OwnGrounding {
     nodes: Vec<Node>,
 }
 
-/// A treebank's lines: chunks by token, a grounding for each.
-#[derive(Deserialize)]
-struct TokenEntry {
-    id: String,
-    text: String,
-    chunks: Vec<TokenChunk>,
-    #[serde(default)]
-    groundings: Vec<TokenGrounding>,
-}
-
-#[derive(Deserialize)]
-struct TokenChunk {
-    tag: String,
-    start: usize,
-    end: usize,
-}
-
-#[derive(Deserialize)]
-struct TokenGrounding {
-    room: Option<String>,
-    object: Option<String>,
-    reference: Option<String>,
-    direction: Option<String>,
-    target: Option<String>,
-}
-
 /// Reads gold descriptions, one JSON object a line; `file` is named in errors.
 pub fn read_gold(text: &str, file: &str) -> Result<Vec<Gold>, GoldError> {
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
@@ -119,11 +96,13 @@ fn from_own(entry: OwnEntry) -> Result<Gold, String> {
         return Err("`tree` and `text` have different words".to_string());
     }
     let chunks: Vec<_> = tree.chunks.iter().map(|chunk| chunk.to_chunk()).collect();
-    let nodes = entry.grounding.nodes;
+    let OwnGrounding { room, object, nodes } = entry.grounding;
+    let grounding =
+        Grounding { room: room.clone(), object: object.clone(), nodes: nodes.clone(), ..Grounding::default() };
     let mut pairs: Vec<_> =
         nodes.iter().flat_map(|node| &node.pairs).map(|pair| (pair.reference.clone(), pair.direction)).collect();
     pairs.sort();
-    let room = entry.grounding.room.unwrap_or_default();
+    let room = room.unwrap_or_default();
     Ok(Gold {
         brackets: brackets_of(&entry.text, &chunks),
         id: entry.id,
@@ -131,9 +110,10 @@ fn from_own(entry: OwnEntry) -> Result<Gold, String> {
         has_grounding: true,
         side: room.side,
         room: room.name,
-        object: entry.grounding.object.map(|object| object.name),
+        object: object.map(|object| object.name),
         has_target: nodes.iter().any(|node| node.target.is_some()),
         pairs,
+        grounding: Some(grounding),
         expect: entry.expect,
     })
 }
@@ -148,7 +128,7 @@ fn from_tokens(entry: TokenEntry) -> Gold {
         Some("bedroom" | "bed room") => Some(Direction::Left),
         _ => None,
     };
-    let mut pairs: Vec<_> = entry.groundings.iter().filter_map(pair_of).collect();
+    let mut pairs: Vec<_> = entry.groundings.iter().filter_map(|grounding| grounding.pair()).collect();
     pairs.sort();
     Gold {
         brackets: entry.chunks.iter().filter_map(|c| Some((tag_of(&c.tag)?, c.start, c.end))).collect(),
@@ -158,37 +138,11 @@ fn from_tokens(entry: TokenEntry) -> Gold {
         object: last(|g| g.object.as_ref()).map(|object| object.replace(' ', "_")),
         has_target: entry.groundings.iter().any(|g| g.target.is_some()),
         pairs,
+        grounding: grounding_of_tokens(&entry),
         expect: Vec::new(),
         id: entry.id,
         text: entry.text,
     }
-}
-
-fn pair_of(grounding: &TokenGrounding) -> Option<(String, Direction)> {
-    let reference = grounding.reference.as_ref()?.replace(' ', "_");
-    // A reference without a direction is an empty cell of a move ahead.
-    let direction = match grounding.direction.as_deref() {
-        Some("back" | "behind") => Direction::Back,
-        Some("left") => Direction::Left,
-        Some("right") => Direction::Right,
-        Some("center" | "central") => Direction::Central,
-        Some("beside" | "side") => Direction::Side,
-        Some("between") => Direction::Between,
-        _ => Direction::Front,
-    };
-    Some((reference, direction))
-}
-
-/// Slips of the pen in public treebanks are read as what was meant.
-fn tag_of(name: &str) -> Option<Tag> {
-    let name = match name {
-        "OBPT" => "OBTP",
-        "FURTR" => "FURTP",
-        "PERSP" => "PERS",
-        "IRMTP" => "IRMRP",
-        other => other,
-    };
-    Tag::from_name(name)
 }
 
 impl Gold {

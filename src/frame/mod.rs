@@ -7,7 +7,7 @@ mod decode;
 mod png;
 
 pub use decode::{Picture, decode_color, decode_depth};
-pub use png::grey_png;
+pub use png::{grey_png, rgb_png};
 
 /// Focal lengths and principal point of a pinhole camera, pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]

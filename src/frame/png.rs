@@ -5,13 +5,18 @@ use super::RgbdFrame;
 impl RgbdFrame {
     /// The colour picture as a PNG file; empty when there is none.
     pub fn color_png(&self) -> Vec<u8> {
-        encode(self.width, self.height, png::ColorType::Rgb, png::BitDepth::Eight, self.color.as_flattened())
+        rgb_png(self.width, self.height, &self.color)
     }
 
     /// The depth picture as a 16-bit grey PNG file, in the frame's units.
     pub fn depth_png(&self) -> Vec<u8> {
         grey_png(self.width, self.height, &self.depth)
     }
+}
+
+/// A colour PNG file.
+pub fn rgb_png(width: usize, height: usize, pixels: &[[u8; 3]]) -> Vec<u8> {
+    encode(width, height, png::ColorType::Rgb, png::BitDepth::Eight, pixels.as_flattened())
 }
 
 /// A 16-bit grey PNG file: depth, or a mask of item ids.

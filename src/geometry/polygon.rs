@@ -81,6 +81,28 @@ impl Polygon {
             || other.contains(self.corners[0])
     }
 
+    /// Area of the intersection over area of the union of two convex polygons, 0 to 1.
+    pub fn overlap(&self, other: &Self) -> f64 {
+        let mut common = self.corners.clone();
+        for (a, b) in other.edges() {
+            let side = |p: Vec2| cross(b - a, p - a);
+            let mut kept = Vec::with_capacity(common.len() + 1);
+            for (i, &p) in common.iter().enumerate() {
+                let q = common[(i + 1) % common.len()];
+                if side(p) >= 0.0 {
+                    kept.push(p);
+                }
+                if (side(p) < 0.0) != (side(q) < 0.0) {
+                    kept.push(p + (q - p) * (side(p) / (side(p) - side(q))));
+                }
+            }
+            common = kept;
+        }
+        let shared = if common.len() < 3 { 0.0 } else { signed_area(&common).max(0.0) };
+        let all = self.area() + other.area() - shared;
+        if all > 0.0 { shared / all } else { 0.0 }
+    }
+
     /// Metres between the two areas, zero when they share a point.
     pub fn distance(&self, other: &Self) -> f64 {
         if self.touches(other) {
@@ -122,6 +144,12 @@ mod tests {
     fn squares_two_metres_apart_have_a_gap_of_one() {
         assert!((square(0.0, 0.0).distance(&square(2.0, 0.0)) - 1.0).abs() < 1e-12);
         assert!(!square(0.0, 0.0).touches(&square(2.0, 0.0)));
+    }
+
+    #[test]
+    fn squares_half_a_side_apart_share_a_third_of_their_union() {
+        assert!((square(0.0, 0.0).overlap(&square(0.5, 0.0)) - 1.0 / 3.0).abs() < 1e-12);
+        assert_eq!(square(0.0, 0.0).overlap(&square(2.0, 0.0)), 0.0);
     }
 
     #[test]

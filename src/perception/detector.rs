@@ -1,22 +1,166 @@
 //! From one RGB-D frame to what is in it.
 
+use std::sync::Arc;
+
 use super::View;
-use super::classify::classify;
-use super::floor_grid::project;
+use super::describe::describe;
+use super::floor_grid::{FloorGrid, project};
+use super::footprint::Footprint;
+use super::front::{Facing, Hidden, facings, hidden_sides};
+use super::joining::Joining;
+use super::measures::{Measured, measure};
+use super::model::{CATEGORIES, Model, NOTHING};
+use super::patches::patches;
+use super::points::{Points, points};
+use super::segment::{Segment, Segments, segments};
+use super::walls::{Wall, furniture_cells, walls};
 use crate::frame::RgbdFrame;
-use crate::geometry::vec2;
+use crate::geometry::{Polygon, Pose, wrap_angle};
+use crate::record::Detection;
 use crate::world::RoomMap;
 
+/// What is likelier no furniture than this is left out.
+const MOST_NOTHING: f32 = 0.5;
+
 /// Finds furniture and small objects in frames.
-#[derive(Clone, Debug, Default)]
-pub struct Detector {}
+#[derive(Clone, Debug)]
+pub struct Detector {
+    model: Arc<Model>,
+}
+
+impl Default for Detector {
+    fn default() -> Self {
+        Self { model: Model::shipped() }
+    }
+}
+
+/// One frame taken apart.
+pub(super) struct Parts {
+    pub points: Points,
+    pub grid: FloorGrid,
+    pub walls: Vec<Wall>,
+    pub segments: Segments,
+}
+
+/// A frame as far as it can be read without a model.
+pub(super) fn surfaces(frame: &RgbdFrame, map: Option<&RoomMap>) -> (Points, FloorGrid, Vec<Wall>, Joining) {
+    let points = points(frame);
+    let grid = project(frame, &points);
+    let walls = walls(&grid, &points, map);
+    let (patches, patch_of) = patches(&grid, &furniture_cells(&grid, &walls));
+    let joining = Joining::new(&grid, patches, &patch_of);
+    (points, grid, walls, joining)
+}
+
+/// Takes a frame apart into pieces.
+pub(super) fn parts(frame: &RgbdFrame, map: Option<&RoomMap>, forest: &super::forest::Forest) -> Parts {
+    let (points, grid, walls, mut joining) = surfaces(frame, map);
+    joining.run(forest);
+    joining.bridge(&grid);
+    joining.run(forest);
+    let groups = joining.patches.into_iter().map(|patch| (patch.cells, patch.sums)).collect();
+    let segments = segments(&grid, &points, groups);
+    Parts { points, grid, walls, segments }
+}
 
 impl Detector {
+    /// A detector with a model of one's own.
+    pub fn new(model: Model) -> Self {
+        Self { model: Arc::new(model) }
+    }
+
     /// What one frame shows, in the frame's world; `map` tells which surfaces are walls.
-    pub fn detect(&self, frame: &RgbdFrame, _map: Option<&RoomMap>) -> View {
-        let camera = vec2(frame.world_from_camera[0][3], frame.world_from_camera[1][3]);
-        let Some(grid) = project(frame) else { return View::default() };
-        let furniture = grid.components().iter().filter_map(|cells| classify(&grid, cells, camera)).collect();
+    pub fn detect(&self, frame: &RgbdFrame, map: Option<&RoomMap>) -> View {
+        let parts = parts(frame, map, &self.model.joining);
+        let pieces = (0_u32..).zip(&parts.segments.pieces);
+        let furniture = pieces.filter_map(|(number, piece)| self.piece(&parts, number, piece)).collect();
+        let furniture = without_doubles(furniture).into_iter().map(rounded).collect();
         View { furniture, objects: Vec::new() }
     }
+
+    fn piece(&self, parts: &Parts, number: u32, segment: &Segment) -> Option<Detection> {
+        let measured = measure(&parts.grid, &parts.walls, segment);
+        let chances = self.model.category.probabilities(&measured.features);
+        if chances[NOTHING] > MOST_NOTHING {
+            return None;
+        }
+        let best = (0..NOTHING).fold(0, |best, i| if chances[i] > chances[best] { i } else { best });
+        let r = segment.rectangle;
+        let (length, width) = (measured.measures.long, measured.measures.short);
+        let hidden = hidden_sides(&parts.grid, &parts.segments, number, &parts.walls, r.pose, length, width);
+        let facings = facings(&parts.grid, &parts.walls, segment, &measured, hidden, &chances);
+        let quarter = self.front(&facings, CATEGORIES[best]);
+        let facing = &facings[quarter];
+        let turned: Hidden = [0, 1, 2, 3].map(|side| hidden[(side + quarter) % 4]);
+        let seen = Footprint { pose: facing.pose, length: facing.length, width: facing.width };
+        let whole = seen.completed(turned, measured.measures.height, &self.model.sizes[best], &parts.walls);
+        Some(detection(&measured, whole, &chances, best, parts.points.camera))
+    }
+
+    /// The quarter turn from the rectangle's heading to the front.
+    fn front(&self, facings: &[Facing; 4], category: &str) -> usize {
+        // A table's heading is that of its long side: it ends at the short edge.
+        if matches!(category, "table" | "coffee_table" | "desk" | "stool" | "lamp") {
+            return 0;
+        }
+        let chance = |i: &usize| self.model.front.probabilities(&facings[*i].features)[1];
+        (0..4).max_by(|a, b| chance(a).total_cmp(&chance(b)).then(b.cmp(a))).unwrap_or(0)
+    }
+}
+
+fn detection(measured: &Measured, whole: Footprint, chances: &[f32], best: usize, camera: Pose) -> Detection {
+    let place = camera.to_world(whole.pose.position());
+    let pose = Pose { heading: wrap_angle(camera.heading + whole.pose.heading), ..Pose::new(place.x, place.y, 0.0) };
+    let certain = 1.0 - chances[NOTHING];
+    let category = CATEGORIES[best];
+    let score = |i: usize| f64::from(chances[i] / certain);
+    let likely = (0..NOTHING).filter(|i| score(*i) >= 0.02);
+    let (attributes, why) = describe(measured, category, &whole);
+    Detection {
+        category: category.to_string(),
+        confidence: f64::from(chances[best]),
+        scores: likely.map(|i| (CATEGORIES[i].to_string(), score(i))).collect(),
+        x: pose.x,
+        y: pose.y,
+        yaw: (!matches!(category, "stool" | "lamp")).then_some(pose.heading),
+        length: whole.length,
+        width: whole.width,
+        height: measured.measures.height,
+        footprint: Polygon::rectangle(pose, whole.length, whole.width).corners().iter().map(|c| [c.x, c.y]).collect(),
+        attributes,
+        why,
+    }
+}
+
+/// Of two that stand in the same place, the surer.
+fn without_doubles(mut found: Vec<Detection>) -> Vec<Detection> {
+    found.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
+    let mut kept: Vec<Detection> = Vec::new();
+    for detection in found {
+        if !kept.iter().any(|other| overlap(other, &detection) > 0.5) {
+            kept.push(detection);
+        }
+    }
+    kept
+}
+
+/// Intersection over union of two footprints.
+pub fn overlap(a: &Detection, b: &Detection) -> f64 {
+    let polygon = |d: &Detection| Polygon::new(d.footprint.iter().map(|c| crate::geometry::vec2(c[0], c[1])).collect());
+    polygon(a).overlap(&polygon(b))
+}
+
+/// Detections are written to a tenth of a millimetre.
+pub(super) fn rounded(mut detection: Detection) -> Detection {
+    let four = |v: f64| crate::record::Rounded(v).value();
+    for value in
+        [&mut detection.x, &mut detection.y, &mut detection.length, &mut detection.width, &mut detection.height]
+    {
+        *value = four(*value);
+    }
+    detection.yaw = detection.yaw.map(four);
+    detection.confidence = four(detection.confidence);
+    detection.scores.values_mut().for_each(|value| *value = four(*value));
+    detection.footprint.iter_mut().flatten().for_each(|value| *value = four(*value));
+    detection
 }

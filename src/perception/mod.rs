@@ -1,20 +1,49 @@
 //! What a robot's eyes report: furniture with pose, and the object.
 //!
+//! [`Detector`] makes detections of a frame: points ([`points`]) are levelled
+//! ([`floor`]) and projected onto a grid ([`floor_grid`]), walls are taken away
+//! ([`walls`]), cells of equal height make patches ([`patches`]), a forest joins
+//! patches into pieces ([`joining`]), another names them by what is measured of
+//! them ([`measures`]), a third tells their fronts ([`front`]); footprints are
+//! completed by what such pieces measure ([`footprint`]). All three are learned
+//! from rooms of our own ([`training`]). [`FurnitureMap`] fuses views.
+//!
 //! The executive sees only [`Eyes`]. [`truth`] is the ideal pair of eyes; it is
 //! the one place here that may look at the scene.
 
-mod classify;
+mod describe;
 mod detector;
+mod external;
+mod floor;
 mod floor_grid;
+mod footprint;
+mod forest;
 mod frame_files;
+mod front;
+mod fusion;
+mod joining;
+mod measures;
+mod model;
+mod overlay;
+mod patches;
 mod picture_files;
+mod points;
 mod rectangle;
+mod scenes;
+mod segment;
 mod stage;
+pub mod training;
 pub mod truth;
+mod walls;
 
 pub use detector::Detector;
+pub use external::{ExternalDetector, ExternalError};
 pub use frame_files::{FrameError, FrameFiles, check};
-pub use stage::Perceiver;
+pub use fusion::FurnitureMap;
+pub use model::Model;
+pub use overlay::overlay;
+pub use scenes::{GridMap, SceneRecord, SceneView, Scenes, scene_of};
+pub use stage::{Perceiver, text_line};
 
 use crate::frame::RgbdFrame;
 use crate::geometry::Pose;

@@ -1,60 +1,141 @@
 //! `perceive` as a stage: records that name frames in, detections out.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use super::frame_files::check;
-use super::{Detector, FrameFiles};
+use serde::Serialize;
+
+use super::external::ExternalDetector;
+use super::{Detector, FrameFiles, View, check, overlay};
+use crate::files::write_file;
 use crate::frame::RgbdFrame;
 use crate::record::{Detection, Note, Record, Stage, StageError};
+use crate::world::RoomMap;
 
-/// Finds furniture in the depth pictures that records name.
+/// Finds furniture in frames, from files or from anywhere else.
 #[derive(Clone, Debug, Default)]
 pub struct Perceiver {
     /// Where relative paths begin.
     pub folder: PathBuf,
-    /// What finds it.
+    /// What finds furniture.
     pub detector: Detector,
+    /// A command that finds it instead.
+    pub external: Option<Arc<ExternalDetector>>,
+    /// The rooms, when they are known.
+    pub map: Option<RoomMap>,
+    /// Where to draw what was found.
+    pub overlay: Option<PathBuf>,
+    /// Whether drawings may replace older ones.
+    pub force: bool,
 }
 
 impl Perceiver {
-    /// Adds what a frame shows to its record.
-    pub fn see(&self, frame: &RgbdFrame, record: &mut Record) -> Result<Note, StageError> {
+    /// What a frame shows, from whatever source it comes; `name` is that of its drawing.
+    pub fn look(&self, name: &str, frame: &RgbdFrame) -> Result<View, StageError> {
         check(frame).map_err(|error| StageError::new(error.to_string()))?;
-        let view = self.detector.detect(frame, None);
-        let detections: Vec<Detection> = view.furniture.into_iter().map(rounded).collect();
-        record.set("detections", &detections);
+        let view = match &self.external {
+            None => self.detector.detect(frame, self.map.as_ref()),
+            Some(external) => external_view(external, frame)?,
+        };
+        self.draw(name, frame, &view)?;
+        Ok(view)
+    }
+
+    /// Adds what a frame from a log shows to its record.
+    pub fn see(&self, frame: &RgbdFrame, record: &mut Record) -> Result<Note, StageError> {
+        let name = record.get::<String>("frame")?.unwrap_or_else(|| "frame".to_string());
+        self.add(&name, frame, record)
+    }
+
+    fn add(&self, name: &str, frame: &RgbdFrame, record: &mut Record) -> Result<Note, StageError> {
+        let view = self.look(name, frame)?;
+        record.set("detections", &view.furniture);
         Ok(Note::Done)
+    }
+
+    fn draw(&self, name: &str, frame: &RgbdFrame, view: &View) -> Result<(), StageError> {
+        let Some(folder) = &self.overlay else { return Ok(()) };
+        let plain: String =
+            name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect();
+        let written =
+            std::fs::create_dir_all(folder).map_err(|error| StageError::new(format!("{}: {error}", folder.display())));
+        written?;
+        let path = folder.join(format!("{plain}.png"));
+        write_file(&path, &overlay(frame, view), self.force).map_err(|error| StageError::new(error.to_string()))
+    }
+
+    /// The frame a record names.
+    pub fn frame_of(&self, record: &Record) -> Result<(String, RgbdFrame), StageError> {
+        let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
+        let files: FrameFiles = serde_json::from_str(&line).map_err(|error| {
+            let what = crate::record::message_without_position(&error);
+            StageError::new(format!("{what}; a frame needs depth, fx, fy, cx, cy, depth_unit_m and T_world_cam"))
+        })?;
+        let frame = files.load(&self.folder).map_err(|error| StageError::new(error.to_string()))?;
+        let name = record.get::<String>("frame")?;
+        Ok((name.unwrap_or_else(|| stem(&files.depth)), frame))
     }
 }
 
-/// Detections are written to a tenth of a millimetre.
-fn rounded(mut detection: Detection) -> Detection {
-    let four = |v: f64| crate::record::Rounded(v).value();
-    for value in
-        [&mut detection.x, &mut detection.y, &mut detection.length, &mut detection.width, &mut detection.height]
-    {
-        *value = four(*value);
-    }
-    detection.yaw = detection.yaw.map(four);
-    detection.footprint.iter_mut().flatten().for_each(|value| *value = four(*value));
-    detection
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "frame".to_string(), |stem| stem.to_string_lossy().to_string())
+}
+
+/// What the external detector reads: the numbers of a frame, and its pictures as files.
+#[derive(Serialize)]
+struct Handed {
+    rgb: PathBuf,
+    depth: PathBuf,
+    width: usize,
+    height: usize,
+    fx: f64,
+    fy: f64,
+    cx: f64,
+    cy: f64,
+    depth_unit_m: f64,
+    #[serde(rename = "T_world_cam")]
+    world_from_camera: [[f64; 4]; 4],
+}
+
+/// Frames may come from a recording, so the pictures are always handed over as files of their own.
+fn external_view(external: &ExternalDetector, frame: &RgbdFrame) -> Result<View, StageError> {
+    let failed = |error: &dyn std::fmt::Display| StageError::new(format!("--detector: {error}"));
+    let folder = tempfile::tempdir().map_err(|error| failed(&error))?;
+    let k = frame.intrinsics;
+    let handed = Handed {
+        rgb: folder.path().join("rgb.png"),
+        depth: folder.path().join("depth.png"),
+        width: frame.width,
+        height: frame.height,
+        fx: k.fx,
+        fy: k.fy,
+        cx: k.cx,
+        cy: k.cy,
+        depth_unit_m: frame.depth_unit_m,
+        world_from_camera: frame.world_from_camera,
+    };
+    write_file(&handed.rgb, &frame.color_png(), true).map_err(|error| failed(&error))?;
+    write_file(&handed.depth, &frame.depth_png(), true).map_err(|error| failed(&error))?;
+    let line = serde_json::to_string(&handed).map_err(|error| failed(&error))?;
+    let furniture = external.detect(&line).map_err(|error| StageError::new(error.to_string()))?;
+    Ok(View { furniture, objects: Vec::new() })
 }
 
 impl Stage for Perceiver {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
-        let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
-        let frame: FrameFiles = serde_json::from_str(&line).map_err(|error| {
-            let what = crate::record::message_without_position(&error);
-            StageError::new(format!("{what}; a frame needs depth, fx, fy, cx, cy, depth_unit_m and T_world_cam"))
-        })?;
-        let frame = frame.load(&self.folder).map_err(|error| StageError::new(error.to_string()))?;
-        self.see(&frame, record)
+        let (name, frame) = self.frame_of(record)?;
+        self.add(&name, &frame, record)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
         let detections: Vec<Detection> = record.require("detections", "it is what `perceive` adds")?;
         let mut lines: Vec<String> = record.get::<String>("frame")?.into_iter().collect();
-        lines.extend(detections.iter().map(|d| format!("  {:12} at ({:.2}, {:.2}): {}", d.category, d.x, d.y, d.why)));
+        lines.extend(detections.iter().map(text_line));
         Ok(lines.join("\n"))
     }
+}
+
+/// One piece on a line, for people.
+pub fn text_line(d: &Detection) -> String {
+    format!("  {:12} {:3.0} % at ({:.2}, {:.2}): {}", d.category, 100.0 * d.confidence, d.x, d.y, d.why)
 }

@@ -5,6 +5,7 @@
 pub mod arcos;
 pub mod p3dx;
 pub mod simulated;
+pub mod sonar;
 
 use crate::geometry::{Pose, Vec2};
 
@@ -24,6 +25,11 @@ pub trait MobileBase {
 
     /// The latest sonar readings.
     fn sonar(&self) -> &[SonarReading];
+
+    /// The heading a compass shows, radians counter-clockwise from the map's +x; nothing where there is no compass.
+    fn compass(&self) -> Option<f64> {
+        None
+    }
 
     /// What else the base reports.
     fn status(&self) -> Status;

@@ -6,6 +6,8 @@ use crate::geometry::{Polygon, Pose, Vec2, vec2};
 pub const FRONT_M: f64 = 0.210;
 /// From the wheels' axis to the rear, metres.
 pub const REAR_M: f64 = 0.301;
+/// Between the wheels, as the odometry counts on it, metres (DiffConvFactor 0.0056 rad/s per mm/s).
+pub const TRACK_M: f64 = 0.357;
 /// Metres.
 pub const WIDTH_M: f64 = 0.425;
 /// Radius of the circle the outline sweeps when the robot turns in place, metres.

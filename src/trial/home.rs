@@ -29,7 +29,14 @@ impl Home {
     /// A home of which only the rooms are known: where a real robot drives.
     pub fn unfurnished(map: RoomMap) -> Self {
         let (version, name) = (1, "unknown".to_string());
-        let scene = Scene { version, name, map: map.name.clone(), furniture: Vec::new(), objects: Vec::new() };
+        let scene = Scene {
+            version,
+            name,
+            map: map.name.clone(),
+            furniture: Vec::new(),
+            objects: Vec::new(),
+            noise: Default::default(),
+        };
         Self { map, scene }
     }
 

@@ -68,22 +68,26 @@ fn shortest_way(home: &Home, item: &Item) -> Option<f64> {
 }
 
 fn as_seen(item: &Item) -> Option<Furniture> {
+    let mut beliefs = Beliefs::default();
+    beliefs.take_in(&View { furniture: vec![ideal_detection(item)], objects: Vec::new() });
+    beliefs.furniture.pop()
+}
+
+/// A piece as eyes without any fault report it, all of it in view.
+pub fn ideal_detection(item: &Item) -> Detection {
     let size = item.size();
-    let detection = Detection {
+    Detection {
         category: item.kind().noun.to_string(),
         confidence: 1.0,
         scores: Default::default(),
         x: item.x,
         y: item.y,
-        yaw: None,
+        yaw: item.has_front().then_some(item.pose().heading),
         length: size.length,
         width: size.width,
         height: size.height,
         footprint: item.footprint().corners().iter().map(|c| [c.x, c.y]).collect(),
-        attributes: Vec::new(),
+        attributes: item.attributes(),
         why: String::new(),
-    };
-    let mut beliefs = Beliefs::default();
-    beliefs.take_in(&View { furniture: vec![detection], objects: Vec::new() });
-    beliefs.furniture.pop()
+    }
 }

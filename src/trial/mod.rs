@@ -16,10 +16,11 @@ mod stage;
 mod stream_eyes;
 
 pub use home::Home;
+pub use judge::ideal_detection;
 pub use outputs::Outputs;
 pub use real::{Interrupter, RealDriver};
 pub use run::{Run, run};
 pub use served::{Served, ServingStop, served_until_interrupted};
-pub use settings::{Perception, Settings, stream_of};
+pub use settings::{NoiseLevel, Perception, Settings, stream_of};
 pub use stage::Driver;
 pub use stream_eyes::{NoEyes, StreamEyes};

@@ -23,8 +23,9 @@ pub struct Run {
 
 /// Runs `plan` in `home`. `stream` picks the record's own random numbers under the seed ([`super::stream_of`]).
 pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: &mut dyn Watcher) -> Run {
-    let _ = stream;
-    let mut base = SimulatedBase::new(Obstacles::new(&home.map, &home.scene), home.map.start);
+    let noise = settings.noise.of(home.scene.noise.unwrap_or_default());
+    let obstacles = Obstacles::new(&home.map, &home.scene);
+    let mut base = SimulatedBase::with_noise(obstacles, home.map.start, noise, settings.seed, stream);
     let truth = base.truth();
     let mut eyes: Box<dyn Eyes> = match settings.perception {
         Perception::Truth => Box::new(TruthEyes::new(&home.map, home.shared_scene(), base.truth())),
@@ -34,11 +35,11 @@ pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: 
     let truth = truth.borrow().clone();
     let verdict = judge(home, object_of(plan), &report.approached, report.found_at, report.outcome, truth.distance_m);
     let mut path = report.journal.path;
-    path.push(PathPoint::new(duration_s, base.pose()));
+    path.push(PathPoint::new(duration_s, report.pose));
     let trial = Trial {
         outcome: report.outcome,
         why: report.why,
-        final_pose: rounded(base.pose()),
+        final_pose: rounded(report.pose),
         target_id: verdict.target_id,
         approached: verdict.approached,
         right_first: verdict.right_first,

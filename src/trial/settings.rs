@@ -1,6 +1,7 @@
 //! How a trial is run: what the executive may do, what eyes it has, and its random stream.
 
 use crate::behavior::Options;
+use crate::world::Noise;
 
 /// Everything about a trial that is neither home nor plan.
 #[derive(Clone, Copy, Debug, Default)]
@@ -9,6 +10,8 @@ pub struct Settings {
     pub options: Options,
     /// What the robot's eyes report.
     pub perception: Perception,
+    /// How imperfect the robot is.
+    pub noise: NoiseLevel,
     /// Seed of everything random.
     pub seed: u64,
 }
@@ -19,6 +22,29 @@ pub enum Perception {
     /// Ideal detections of what a camera would show
     #[default]
     Truth,
+}
+
+/// How imperfect the simulated robot's wheels, sonars, compass and start are, against what its world says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum NoiseLevel {
+    /// A robot without any error
+    Off,
+    /// As the scene says, or as usual
+    #[default]
+    Default,
+    /// Twice that
+    Double,
+}
+
+impl NoiseLevel {
+    /// The noise of a robot in a world that has `usual`.
+    pub fn of(self, usual: Noise) -> Noise {
+        match self {
+            Self::Off => Noise::off(),
+            Self::Default => usual,
+            Self::Double => usual.times(2.0),
+        }
+    }
 }
 
 /// The random stream of a record: by its id, so that it is the same in any order, job or shard (FNV-1a).

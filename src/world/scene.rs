@@ -5,10 +5,10 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::RoomMap;
 use super::error::{WorldError, parse, read};
 use super::furniture::{self, Category, Shape, Size, SmallObject};
 use super::solid::{Color, Solid};
+use super::{Noise, RoomMap};
 use crate::geometry::{Polygon, Pose, Vec2, vec2};
 
 /// Furniture and objects, on a room map.
@@ -26,6 +26,9 @@ pub struct Scene {
     /// The portable objects.
     #[serde(default)]
     pub objects: Vec<PlacedObject>,
+    /// How imperfect the simulated robot is here, where it is not the usual one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<Noise>,
 }
 
 /// A piece of furniture.
@@ -188,6 +191,7 @@ impl Scene {
             map: String::new(),
             furniture: Vec::new(),
             objects: Vec::new(),
+            noise: None,
         })
     }
 

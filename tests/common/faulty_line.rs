@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use spatial_fetch::robot::arcos::line::Line;
 
-/// What a line can do to bytes, and to itself.
+/// What a line can do to bytes. It can also be late, stall, and die.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     Drop,
@@ -15,9 +15,6 @@ pub enum Fault {
     Corrupt,
     Garbage,
     Truncate,
-    Delay,
-    Stall,
-    Death,
 }
 
 /// How often, of 10,000: bytes for the first four, exchanges for the others.

@@ -21,6 +21,9 @@ pub struct Arguments {
     /// Do not go straight to an object recognised in passing: let the words alone choose
     #[arg(long)]
     no_glance: bool,
+    /// Believe the odometry alone: no correction by walls and compass
+    #[arg(long)]
+    no_localization: bool,
     /// Seconds of robot time a trial may take
     #[arg(long, value_name = "SECONDS", default_value_t = 900.0)]
     time_limit: f64,
@@ -34,6 +37,7 @@ impl Arguments {
             first_pair_only: self.first_pair_only,
             no_fallback: self.no_fallback,
             no_glance: self.no_glance,
+            no_localization: self.no_localization,
             time_limit_s: self.time_limit,
         }
     }

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, FromLog, Intake, Program, Reporter};
 use spatial_fetch::record::{Stage, Trial};
-use spatial_fetch::trial::{Driver, Home, Perception, Settings};
+use spatial_fetch::trial::{Driver, Home, NoiseLevel, Perception, Settings};
 use spatial_fetch::world::{RoomMap, WorldError};
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
@@ -32,6 +32,9 @@ struct Arguments {
     /// What the robot's eyes report
     #[arg(long, value_enum, default_value = "truth")]
     perception: Perception,
+    /// How imperfect the robot's wheels, sonars, compass and start are
+    #[arg(long, value_enum, default_value = "default")]
+    noise: NoiseLevel,
     #[command(flatten)]
     executive: executive::Arguments,
     #[command(flatten)]
@@ -61,8 +64,12 @@ impl Program for Arguments {
         if self.robot.serves() {
             return self.robot.run_served(&home, &reporter, self.common.seed);
         }
-        let settings =
-            Settings { options: self.executive.options(), perception: self.perception, seed: self.common.seed };
+        let settings = Settings {
+            options: self.executive.options(),
+            perception: self.perception,
+            noise: self.noise,
+            seed: self.common.seed,
+        };
         let outputs = self.outputs.outputs(self.common.force);
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
         let (driver, common): (Box<dyn Stage>, Common) = if self.robot.is_real() {

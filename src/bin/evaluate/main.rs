@@ -1,8 +1,11 @@
 //! Scores records against gold, and runs the experiments: one file a subcommand.
 
+mod behavior;
 mod frames;
+mod perception;
 mod run;
 mod score;
+mod train;
 
 use std::process::ExitCode;
 
@@ -30,6 +33,12 @@ enum What {
     Run(run::Arguments),
     /// Render frames of rooms furnished at random, with the truth, to train and test perception on
     Frames(frames::Arguments),
+    /// Score detections against frames whose furniture is known
+    Perception(perception::Arguments),
+    /// Learn the furniture detector from such rooms
+    Train(train::Arguments),
+    /// Drive a corpus many times over: the paper's Tables II and III, ablations, and why it went wrong
+    Behavior(behavior::Arguments),
 }
 
 impl Program for Arguments {
@@ -39,19 +48,29 @@ impl Program for Arguments {
             What::Score(arguments) => &arguments.common,
             What::Run(arguments) => &arguments.common,
             What::Frames(arguments) => &arguments.common,
+            What::Perception(arguments) => &arguments.common,
+            What::Train(arguments) => &arguments.common,
+            What::Behavior(arguments) => &arguments.common,
         }
     }
     fn schema() -> schemars::Schema {
         schemars::schema_for!(Scores)
     }
     fn reads_standard_input(&self) -> bool {
-        matches!(&self.what, What::Score(arguments) if arguments.common.files.is_empty())
+        match &self.what {
+            What::Score(arguments) => arguments.common.files.is_empty(),
+            What::Perception(arguments) => arguments.common.files.is_empty(),
+            _ => false,
+        }
     }
     fn run(self) -> Result<Exit, Failure> {
         match self.what {
             What::Score(arguments) => arguments.run(),
             What::Run(arguments) => arguments.run(),
             What::Frames(arguments) => arguments.run(),
+            What::Perception(arguments) => arguments.run(),
+            What::Train(arguments) => arguments.run(),
+            What::Behavior(arguments) => arguments.run(),
         }
     }
 }

@@ -4,19 +4,21 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::Obstacles;
-use crate::geometry::{Pose, vec2, wrap_angle};
+use super::dice::Dice;
+use super::ears::Ears;
+use super::wheels::{Wheels, moved};
+use crate::geometry::{Pose, angle_between, wrap_angle};
 use crate::robot::{MobileBase, RobotError, SonarReading, Status, p3dx};
+use crate::world::Noise;
 
 /// Integration step, seconds.
 const STEP_S: f64 = 0.02;
-/// Sonars are read afresh at this period, seconds.
-const SONAR_PERIOD_S: f64 = 0.1;
+/// One sonar of each array fires every 40 ms, as the P3DX's controller lets them.
+const STEPS_PER_PING: u64 = 2;
 /// Clearance is not told apart beyond this, metres.
 const CLEARANCE_REACH_M: f64 = 1.0;
 /// A robot that touched something is free again at this distance, metres.
 const FREE_AGAIN_M: f64 = 0.02;
-/// Half of a sonar's cone, radians.
-const SONAR_HALF_CONE_RAD: f64 = 0.13;
 
 /// What is true of the simulated robot.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,33 +33,59 @@ pub struct Truth {
     pub distance_m: f64,
 }
 
-/// A simulated P3DX. Its odometry is exact for now.
+/// A simulated P3DX. What it reports of itself is what its wheels count, its sonars hear and its compass shows.
 pub struct SimulatedBase {
     obstacles: Obstacles,
     truth: Rc<RefCell<Truth>>,
+    odometry: Pose,
     velocity: (f64, f64),
     steps: u64,
-    sonar: Vec<SonarReading>,
+    wheels: Wheels,
+    ears: Ears,
+    compass_bias_rad: f64,
+    compass: f64,
+    noise: Noise,
+    dice: Dice,
     status: Status,
     /// A lower bound of the clearance: while it stays above zero nothing need be measured.
     slack_m: f64,
 }
 
 impl SimulatedBase {
-    /// A robot at rest at `start`.
+    /// A robot without any error at rest at `start`.
     pub fn new(obstacles: Obstacles, start: Pose) -> Self {
-        let truth = Truth { pose: start, min_clearance_m: CLEARANCE_REACH_M, ..Truth::default() };
+        Self::with_noise(obstacles, start, Noise::off(), 0, 0)
+    }
+
+    /// A robot at rest that believes to be at `start`; its luck is drawn from `stream` under `seed`.
+    pub fn with_noise(obstacles: Obstacles, start: Pose, noise: Noise, seed: u64, stream: u64) -> Self {
+        let mut dice = Dice::new(seed, stream);
+        let pose = Pose::new(
+            start.x + dice.normal(noise.start_m),
+            start.y + dice.normal(noise.start_m),
+            wrap_angle(start.heading + dice.normal(noise.start_rad)),
+        );
+        let wheels = Wheels::new(&noise, &mut dice);
+        let compass_bias_rad = dice.normal(noise.compass_bias_rad);
+        let ears = Ears::new(noise, &obstacles, pose, &mut dice);
+        let truth = Truth { pose, min_clearance_m: CLEARANCE_REACH_M, ..Truth::default() };
         let mut base = Self {
             obstacles,
             truth: Rc::new(RefCell::new(truth)),
+            odometry: start,
             velocity: (0.0, 0.0),
             steps: 0,
-            sonar: Vec::new(),
+            wheels,
+            ears,
+            compass_bias_rad,
+            compass: 0.0,
+            noise,
+            dice,
             status: Status::default(),
             slack_m: 0.0,
         };
         base.measure_clearance();
-        base.read_sonar();
+        base.read_compass();
         base
     }
 
@@ -82,21 +110,18 @@ impl SimulatedBase {
             ),
         );
         let before = self.truth.borrow().pose;
-        let (v, w) = self.velocity;
-        let middle = before.heading + w * STEP_S / 2.0;
-        let after = Pose::new(
-            before.x + v * STEP_S * middle.cos(),
-            before.y + v * STEP_S * middle.sin(),
-            wrap_angle(before.heading + w * STEP_S),
-        );
+        let (metres, radians) = (self.velocity.0 * STEP_S, self.velocity.1 * STEP_S);
+        let after = self.wheels.roll(before, metres, radians, &mut self.dice);
         self.truth.borrow_mut().pose = after;
         // No point of the outline moves farther than this in a step.
-        self.slack_m -= (v.abs() + w.abs() * p3dx::SWING_M) * STEP_S;
+        let rolled = (after.position() - before.position()).norm();
+        self.slack_m -= rolled + angle_between(after.heading, before.heading) * p3dx::SWING_M;
         if self.slack_m <= 0.0 && self.measure_clearance() <= 0.0 {
             self.truth.borrow_mut().pose = before;
             self.touch();
         } else {
-            self.truth.borrow_mut().distance_m += v.abs() * STEP_S;
+            self.odometry = moved(self.odometry, metres, radians);
+            self.truth.borrow_mut().distance_m += rolled;
         }
         self.steps += 1;
     }
@@ -123,22 +148,9 @@ impl SimulatedBase {
         clearance
     }
 
-    fn read_sonar(&mut self) {
-        let pose = self.truth.borrow().pose;
-        self.sonar = p3dx::sonars()
-            .map(|(mount, bearing)| {
-                let origin = pose.to_world(mount);
-                let range = |off: f64| {
-                    let heading = pose.heading + bearing + off;
-                    self.obstacles.range(origin, vec2(heading.cos(), heading.sin()), p3dx::SONAR_RANGE_M)
-                };
-                let range_m = [-SONAR_HALF_CONE_RAD, 0.0, SONAR_HALF_CONE_RAD]
-                    .map(range)
-                    .into_iter()
-                    .fold(f64::INFINITY, f64::min);
-                SonarReading { mount, bearing, range_m }
-            })
-            .collect();
+    fn read_compass(&mut self) {
+        let error = self.compass_bias_rad + self.dice.normal(self.noise.compass_rad);
+        self.compass = wrap_angle(self.truth.borrow().pose.heading + error);
     }
 }
 
@@ -151,7 +163,7 @@ fn toward(now: f64, wanted: f64, accelerate: f64, brake: f64) -> f64 {
 
 impl MobileBase for SimulatedBase {
     fn pose(&self) -> Pose {
-        self.truth.borrow().pose
+        self.odometry
     }
 
     fn velocity(&self) -> (f64, f64) {
@@ -166,15 +178,21 @@ impl MobileBase for SimulatedBase {
         let steps = (seconds / STEP_S).round() as u64;
         for _ in 0..steps {
             self.step(linear, angular);
-            if self.steps.is_multiple_of((SONAR_PERIOD_S / STEP_S).round() as u64) {
-                self.read_sonar();
+            if self.steps.is_multiple_of(STEPS_PER_PING) {
+                let pose = self.truth.borrow().pose;
+                self.ears.fire(&self.obstacles, pose, &mut self.dice);
             }
         }
+        self.read_compass();
         Ok(())
     }
 
     fn sonar(&self) -> &[SonarReading] {
-        &self.sonar
+        self.ears.readings()
+    }
+
+    fn compass(&self) -> Option<f64> {
+        Some(self.compass)
     }
 
     fn status(&self) -> Status {
@@ -212,6 +230,17 @@ mod tests {
         let truth = base.truth().borrow().clone();
         assert!(base.status().stalled && truth.collisions == 1, "{truth:?}");
         assert!(truth.pose.x < 7.2 - p3dx::FRONT_M + 1e-6 && truth.pose.x > 6.9);
+    }
+
+    #[test]
+    fn a_robot_with_noise_does_not_know_where_it_is() {
+        let obstacles = Obstacles::new(&RoomMap::apartment(), &Scene::apartment());
+        let start = Pose::new(-3.0, 0.0, 0.0);
+        let mut base = SimulatedBase::with_noise(obstacles, start, Noise::default(), 7, 0);
+        base.drive(0.5, 0.0, 10.0).expect("drives");
+        let truth = base.truth().borrow().pose;
+        let error = (truth.position() - base.pose().position()).norm();
+        assert!(error > 0.01 && error < 1.0, "{truth:?} {:?}", base.pose());
     }
 
     #[test]

@@ -5,7 +5,10 @@
 //! and the simulated eyes hold.
 
 mod base;
+mod dice;
+mod ears;
 mod obstacles;
+mod wheels;
 
 pub use base::{SimulatedBase, Truth};
 pub use obstacles::Obstacles;

@@ -2,10 +2,13 @@
 
 use crate::geometry::{Polygon, Vec2, cross, segment_distance};
 use crate::robot::p3dx;
+use crate::robot::sonar::{self, Segment};
 use crate::world::{RoomMap, Scene};
 
-/// The P3DX deck with its laser bay; what begins higher is driven under.
-const ROBOT_TOP_M: f64 = 0.3;
+/// Height of the sonar rings: what does not reach it is not heard, metres.
+const SONAR_HEIGHT_M: f64 = 0.2;
+/// What ends lower is rolled over, metres.
+const STEP_M: f64 = 0.04;
 
 /// Walls and furniture, in the truth.
 #[derive(Clone, Debug)]
@@ -17,8 +20,11 @@ pub struct Obstacles {
 #[derive(Clone, Debug)]
 struct Thing {
     outline: Polygon,
+    edges: Vec<Segment>,
     centre: Vec2,
     radius: f64,
+    /// It stands where the sonars ping; what hangs higher is only run into.
+    is_low: bool,
 }
 
 impl Obstacles {
@@ -27,11 +33,15 @@ impl Obstacles {
     /// A table counts with its whole top: the robot's tower would not pass
     /// under it.
     pub fn new(map: &RoomMap, scene: &Scene) -> Self {
-        let solids = scene.furniture.iter().flat_map(|item| {
-            let low = item.solids().into_iter().filter(|solid| solid.bottom() < ROBOT_TOP_M);
-            low.map(|solid| solid.footprint().clone()).chain([item.footprint()]).collect::<Vec<_>>()
+        let things = scene.furniture.iter().flat_map(|item| {
+            let solids = item.solids().into_iter().filter(|solid| solid.top() > STEP_M);
+            let parts = solids.filter(|solid| solid.bottom() < SONAR_HEIGHT_M).map(|solid| {
+                let is_low = solid.top() > SONAR_HEIGHT_M;
+                (solid.footprint().clone(), is_low)
+            });
+            parts.chain([(item.footprint(), false)]).collect::<Vec<_>>()
         });
-        Self { walls: map.walls(), things: solids.map(Thing::new).collect() }
+        Self { walls: map.walls(), things: things.map(Thing::new).collect() }
     }
 
     /// No obstacles at all.
@@ -57,39 +67,38 @@ impl Obstacles {
         nearest
     }
 
-    /// Metres along a ray (unit direction) to the first obstacle, at most `reach`.
-    pub fn range(&self, origin: Vec2, direction: Vec2, reach: f64) -> f64 {
-        let mut nearest = reach;
-        for &(a, b) in &self.walls {
-            nearest = nearest.min(ray_to_segment(origin, direction, a, b));
-        }
-        for thing in &self.things {
+    /// Metres to the nearest echo for a sonar at `origin` that looks along `axis` (a unit vector), within `reach`.
+    pub fn echo(&self, origin: Vec2, axis: Vec2, reach: f64) -> Option<f64> {
+        let mut nearest = sonar::echo(&self.walls, origin, axis, reach);
+        let in_reach = |thing: &&Thing| {
             let to = thing.centre - origin;
-            let off = cross(direction, to).abs();
-            if off <= thing.radius && to.dot(&direction) + thing.radius > 0.0 && to.norm() - thing.radius < nearest {
-                for (a, b) in thing.outline.edges() {
-                    nearest = nearest.min(ray_to_segment(origin, direction, a, b));
-                }
-            }
+            let limit = nearest.map_or(reach, |echo| echo.range_m) + thing.radius;
+            to.norm_squared() < limit * limit && may_be_heard(thing, to, axis)
+        };
+        let near: Vec<&Thing> = self.things.iter().filter(|thing| thing.is_low).filter(in_reach).collect();
+        for edge in near.iter().flat_map(|thing| &thing.edges) {
+            let reach = nearest.map_or(reach, |echo| echo.range_m);
+            nearest = sonar::surface_echo(*edge, origin, axis, reach).or(nearest);
         }
-        nearest
+        let echo = nearest?;
+        let mut surfaces = near.iter().flat_map(|thing| &thing.edges).chain(&self.walls);
+        let hidden = surfaces.any(|&surface| sonar::hides(surface, origin, &echo));
+        (!hidden).then_some(echo.range_m)
     }
+}
+
+/// Whether any part of a thing can lie within the cone.
+fn may_be_heard(thing: &Thing, to: Vec2, axis: Vec2) -> bool {
+    let along = to.dot(&axis);
+    let off = cross(axis, to).abs();
+    off * sonar::HALF_CONE_RAD.cos() - along * sonar::HALF_CONE_RAD.sin() <= thing.radius && along > -thing.radius
 }
 
 impl Thing {
-    fn new(outline: Polygon) -> Self {
+    fn new((outline, is_low): (Polygon, bool)) -> Self {
         let centre = outline.centroid();
         let radius = outline.corners().iter().map(|corner| (corner - centre).norm()).fold(0.0, f64::max);
-        Self { outline, centre, radius }
+        let edges = outline.edges().collect();
+        Self { outline, edges, centre, radius, is_low }
     }
-}
-
-fn ray_to_segment(origin: Vec2, direction: Vec2, a: Vec2, b: Vec2) -> f64 {
-    let along = b - a;
-    let denominator = cross(direction, along);
-    if denominator.abs() < 1e-12 {
-        return f64::INFINITY;
-    }
-    let (t, s) = (cross(a - origin, along) / denominator, cross(a - origin, direction) / denominator);
-    if t >= 0.0 && (0.0..=1.0).contains(&s) { t } else { f64::INFINITY }
 }

@@ -45,7 +45,14 @@ impl Default for DryLine {
                 }
             }
         });
-        Self { commands, answers, waiting: Vec::new(), decoder: Decoder::default(), synchronised: false, opened: Instant::now() }
+        Self {
+            commands,
+            answers,
+            waiting: Vec::new(),
+            decoder: Decoder::default(),
+            synchronised: false,
+            opened: Instant::now(),
+        }
     }
 }
 

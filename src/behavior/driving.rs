@@ -1,0 +1,297 @@
+//! How the pilot turns, drives along a way, and gets clear of what it did not expect.
+
+use super::pilot::{Halt, Pilot, SWING_M, TICK_S};
+use super::route::{length, route};
+use crate::geometry::{Pose, Vec2, vec2, wrap_angle};
+use crate::robot::{SonarReading, p3dx};
+
+/// Ticks between two looks while driving.
+const TICKS_PER_LOOK: usize = 6;
+/// Where there is room for it, a way keeps this clear, metres.
+const ROOMY_M: f64 = 0.52;
+/// What a detour for room may cost, a share of the way.
+const DETOUR: f64 = 1.25;
+/// What a route may shrink to before it is planned anew, metres.
+const LEAST_M: f64 = 0.39;
+/// Speeds and the braking they count on.
+const SPEED_M_S: f64 = 0.5;
+const CREEP_M_S: f64 = 0.1;
+const TURN_RAD_S: f64 = 1.2;
+const BRAKE_M_S2: f64 = 0.25;
+const TURN_BRAKE_RAD_S2: f64 = 0.8;
+/// How near a driven-to point must be, metres, and a turned-to heading, radians.
+const NEAR_M: f64 = 0.06;
+const NEAR_RAD: f64 = 0.03;
+/// Off the line by more than this, the robot stops and turns first, radians.
+const OFF_LINE_RAD: f64 = 0.35;
+/// The sonar's last word: nothing ahead nearer than this, metres from the sonar.
+const GUARD_M: f64 = 0.16;
+/// Sonars within this of straight ahead watch the way, radians.
+const GUARD_RAD: f64 = 0.7;
+/// A sonar's range is this old at most, seconds: eight fire one after another.
+const SONAR_AGE_S: f64 = 0.32;
+/// A turn in place needs this much round the wheels' middle, metres.
+const TURNING_M: f64 = p3dx::SWING_M + 0.03;
+/// How far the robot backs off from what it touched, metres.
+const BACK_OFF_M: f64 = 0.25;
+/// How often a blocked way is planned anew, and a held robot freed, before it gives up.
+const MOST_REPLANS: usize = 8;
+const MOST_RESCUES: usize = 4;
+
+impl Pilot<'_> {
+    /// Turns in place to a heading, radians.
+    pub fn turn_to(&mut self, heading: f64) -> Result<(), Halt> {
+        self.come_to_rest()?;
+        self.make_room()?;
+        let mut rescues = 0;
+        loop {
+            let off = wrap_angle(heading - self.pose().heading);
+            let turning = self.base.velocity().1;
+            if off.abs() < NEAR_RAD && turning.abs() < 0.05 {
+                return self.come_to_rest();
+            }
+            let fastest = (2.0 * TURN_BRAKE_RAD_S2 * off.abs()).sqrt().min(TURN_RAD_S);
+            self.tick(0.0, off.signum() * fastest.min(off.abs() / TICK_S * 0.5))?;
+            if self.is_held() {
+                rescues += 1;
+                if rescues > MOST_RESCUES {
+                    return Err(Halt::Blocked("held fast while turning".to_string()));
+                }
+                self.back_off(self.free_ahead() > self.free_behind())?;
+            }
+        }
+    }
+
+    /// Drives to a point, metres, round everything known.
+    pub fn go_to(&mut self, goal: Vec2) -> Result<(), Halt> {
+        for _ in 0..MOST_REPLANS {
+            let Some(points) = self.way_to(goal) else {
+                return Err(Halt::Blocked(format!("no way to ({:.1}, {:.1})", goal.x, goal.y)));
+            };
+            if self.follow(&points)? {
+                return Ok(());
+            }
+        }
+        Err(Halt::Blocked(format!("every way to ({:.1}, {:.1}) turned out blocked", goal.x, goal.y)))
+    }
+
+    /// Drives to a pose and turns to its heading.
+    pub fn go_to_pose(&mut self, goal: Pose) -> Result<(), Halt> {
+        self.go_to(goal.position())?;
+        self.turn_to(goal.heading)?;
+        self.look();
+        Ok(())
+    }
+
+    /// The roomy way, unless it leads elsewhere or far about; when what the sonars met closes every way, without that.
+    fn way_to(&mut self, goal: Vec2) -> Option<Vec<Vec2>> {
+        let here = self.pose().position();
+        let mut narrow = route(&self.grid, here, goal, SWING_M);
+        if narrow.is_none() && !self.beliefs.bumps.is_empty() {
+            self.because("what the sonars met leaves no way; it may have gone");
+            self.beliefs.bumps.clear();
+            self.rebuild_grid();
+            narrow = route(&self.grid, here, goal, SWING_M);
+        }
+        let narrow = narrow?;
+        let (end, metres) = (narrow.last().copied().unwrap_or(here), length(here, &narrow));
+        let roomy = route(&self.grid, here, goal, ROOMY_M).filter(|way| {
+            let near = way.last().is_some_and(|last| (last - end).norm() < NEAR_M);
+            near && length(here, way) < DETOUR * metres
+        });
+        Some(roomy.unwrap_or(narrow))
+    }
+
+    /// True at the last point; false when what was seen on the way closed it.
+    fn follow(&mut self, points: &[Vec2]) -> Result<bool, Halt> {
+        for (i, &point) in points.iter().enumerate() {
+            let is_last = i + 1 == points.len();
+            if !self.drive_line(point, &points[i..], is_last)? {
+                self.come_to_rest()?;
+                return Ok(false);
+            }
+        }
+        self.come_to_rest()?;
+        Ok(true)
+    }
+
+    fn drive_line(&mut self, point: Vec2, rest: &[Vec2], is_last: bool) -> Result<bool, Halt> {
+        let near = if is_last { NEAR_M } else { 2.0 * NEAR_M };
+        let mut ticks = 0;
+        while self.pose().distance_to(point) > near {
+            let off = self.pose().bearing_to(point);
+            if off.abs() > OFF_LINE_RAD {
+                let heading = wrap_angle(self.pose().heading + off);
+                self.turn_to(heading)?;
+            }
+            let free = self.free_ahead() - GUARD_M;
+            if free <= 0.0 && self.something_is_ahead()? {
+                return self.met_something();
+            }
+            let distance = self.pose().distance_to(point);
+            let fastest = (2.0 * BRAKE_M_S2 * distance.min(free.max(0.0))).sqrt().clamp(0.05, SPEED_M_S);
+            self.tick(fastest * off.cos().max(0.0), (1.5 * off).clamp(-TURN_RAD_S, TURN_RAD_S))?;
+            if self.is_held() {
+                self.touched()?;
+                return Ok(false);
+            }
+            ticks += 1;
+            if ticks % TICKS_PER_LOOK == 0 && self.look() && !self.still_clear(rest) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    fn still_clear(&self, rest: &[Vec2]) -> bool {
+        let mut at = self.pose().position();
+        rest.iter().all(|&point| {
+            let clear = self.grid.clearance_along(at, point) >= LEAST_M;
+            at = point;
+            clear
+        })
+    }
+
+    /// Metres from the front sonars to what they hear, less what the robot has gone since they fired.
+    fn free_ahead(&self) -> f64 {
+        self.nearest(|bearing| bearing <= GUARD_RAD) - self.base.velocity().0.max(0.0) * SONAR_AGE_S
+    }
+
+    fn free_behind(&self) -> f64 {
+        self.nearest(|bearing| bearing >= std::f64::consts::PI - GUARD_RAD)
+    }
+
+    fn nearest(&self, watched: impl Fn(f64) -> bool) -> f64 {
+        let ranges = self.base.sonar().iter().filter(|r| watched(r.bearing.abs())).map(|r| r.range_m);
+        ranges.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Stands still until every sonar has fired again: one ping may be another sonar's.
+    fn something_is_ahead(&mut self) -> Result<bool, Halt> {
+        self.come_to_rest()?;
+        for _ in 0..(SONAR_AGE_S / TICK_S).ceil() as usize {
+            self.tick(0.0, 0.0)?;
+        }
+        Ok(self.free_ahead() - GUARD_M <= 0.0)
+    }
+
+    /// The sonar found something the eyes had not: remember it, and plan anew.
+    fn met_something(&mut self) -> Result<bool, Halt> {
+        let ahead = self.base.sonar().iter().filter(|reading| reading.bearing.abs() <= GUARD_RAD);
+        if let Some(nearest) = ahead.min_by(|a, b| a.range_m.total_cmp(&b.range_m)) {
+            let point = self.pose().to_world(heard_at(nearest));
+            self.beliefs.bumps.push(point);
+            self.because(format!("the sonar met something at ({:.1}, {:.1}); going round", point.x, point.y));
+        }
+        self.rebuild_grid();
+        Ok(false)
+    }
+
+    fn is_held(&self) -> bool {
+        let status = self.base.status();
+        status.stalled || status.bumped
+    }
+
+    /// Something neither eyes nor sonars had reported stopped the robot: back off, remember it, plan anew.
+    fn touched(&mut self) -> Result<(), Halt> {
+        let point = self.pose().to_world(vec2(p3dx::FRONT_M + 0.05, 0.0));
+        self.because(format!("touched something at ({:.1}, {:.1}); backing off", point.x, point.y));
+        self.beliefs.bumps.push(point);
+        self.back_off(false)?;
+        self.rebuild_grid();
+        Ok(())
+    }
+
+    /// Creeps a little way back or ahead, as far as the sonars there allow.
+    fn back_off(&mut self, ahead: bool) -> Result<(), Halt> {
+        let from = self.pose();
+        let speed = if ahead { CREEP_M_S } else { -CREEP_M_S };
+        for _ in 0..(2.0 * BACK_OFF_M / CREEP_M_S / TICK_S) as usize {
+            let free = if ahead { self.free_ahead() } else { self.free_behind() };
+            if free < GUARD_M || self.pose().distance_to(from.position()) >= BACK_OFF_M {
+                break;
+            }
+            self.tick(speed, 0.0)?;
+        }
+        self.come_to_rest()
+    }
+
+    /// Before a turn in place: away from what the sonars hear within the swing, as far as the other side allows.
+    fn make_room(&mut self) -> Result<(), Halt> {
+        for _ in 0..(BACK_OFF_M / CREEP_M_S / TICK_S) as usize {
+            let points = || self.base.sonar().iter().map(heard_at);
+            let Some(nearest) = points().min_by(|a, b| a.norm().total_cmp(&b.norm())) else { return Ok(()) };
+            let (lacks, ahead) = (TURNING_M - nearest.norm(), nearest.x < 0.0);
+            let free = if ahead { self.free_ahead() } else { self.free_behind() };
+            // What stands abreast is passed no better by creeping.
+            if lacks <= 0.0 || free < GUARD_M + lacks || nearest.x.abs() < 0.1 {
+                break;
+            }
+            self.tick(if ahead { CREEP_M_S } else { -CREEP_M_S }, 0.0)?;
+        }
+        self.come_to_rest()
+    }
+
+    fn come_to_rest(&mut self) -> Result<(), Halt> {
+        loop {
+            let (linear, angular) = self.base.velocity();
+            if linear.abs() < 0.01 && angular.abs() < 0.02 {
+                return Ok(());
+            }
+            self.tick(0.0, 0.0)?;
+        }
+    }
+}
+
+/// Where a reading's echo is, in the robot's frame, metres.
+fn heard_at(reading: &SonarReading) -> Vec2 {
+    reading.mount + vec2(reading.bearing.cos(), reading.bearing.sin()) * reading.range_m
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::behavior::Silent;
+    use crate::perception::{Eyes, View};
+    use crate::robot::simulated::{Obstacles, SimulatedBase};
+    use crate::world::{Noise, RoomMap, Scene};
+
+    /// Eyes that see nothing.
+    struct Shut;
+
+    impl Eyes for Shut {
+        fn look(&mut self, _believed: Pose) -> View {
+            View::default()
+        }
+    }
+
+    /// Drives blindfold from one pose to a point; where it got to, and how often it touched something.
+    fn blindfold(scene: &Scene, from: Pose, goal: Vec2) -> (Result<(), Halt>, Pose, u32) {
+        let map = RoomMap::apartment();
+        let mut base = SimulatedBase::with_noise(Obstacles::new(&map, scene), from, Noise::default(), 3, 0);
+        let truth = base.truth();
+        let (mut eyes, mut watcher) = (Shut, Silent);
+        let result = Pilot::new(&map, &mut base, &mut eyes, &mut watcher, 300.0, false).go_to(goal);
+        let truth = truth.borrow();
+        (result, truth.pose, truth.collisions)
+    }
+
+    #[test]
+    fn a_couch_that_only_the_sonars_met_is_gone_round_untouched() {
+        let goal = vec2(6.3, 4.6);
+        let (result, end, collisions) = blindfold(&Scene::apartment(), Pose::new(5.0, 1.9, 1.57), goal);
+        assert_eq!((result, collisions), (Ok(()), 0));
+        assert!(end.distance_to(goal) < 0.3, "{end:?}");
+    }
+
+    #[test]
+    fn a_table_top_that_nothing_saw_is_touched_backed_off_from_and_gone_round() {
+        let scene = r#"{"version":1,"name":"one table","map":"apartment","furniture":[
+            {"id":"table","category":"round_table","x":4.4,"y":4.5}]}"#;
+        let scene: Scene = serde_json::from_str(scene).expect("a scene");
+        let goal = vec2(4.4, 6.6);
+        let (result, end, collisions) = blindfold(&scene, Pose::new(4.4, 2.3, 1.57), goal);
+        assert_eq!(result, Ok(()), "{end:?} after {collisions}");
+        assert!((1..=6).contains(&collisions) && end.distance_to(goal) < 0.3, "{end:?} after {collisions}");
+    }
+}

@@ -1,0 +1,200 @@
+//! The lower tier that is static: look for the references, go where the target can be seen, take the candidates in
+//! the order in which the words fit them, and look for the object on each.
+
+use std::f64::consts::PI;
+
+use super::Halt;
+use super::approach::{better_view, viewpoints};
+use super::executive::{Executive, SWEEP_RAD, Task};
+use super::motion::RoomFrame;
+use super::regions::lookouts;
+use super::relation::Place;
+use super::search::{Ranked, Wanted, blame, rank, references};
+use crate::geometry::{Polygon, Pose, Vec2, vec2};
+use crate::language::Class;
+use crate::perception::ObjectSighting;
+
+/// A best candidate below this is a guess: look further before going there.
+const PLAUSIBLE: f64 = 0.12;
+/// How often the robot moves to tell for sure what it sees.
+const MOST_SETTLING: usize = 3;
+/// Alternatives named in a reason beside the best two.
+const MOST_TOLD: usize = 3;
+
+impl Executive<'_> {
+    /// The static tier. `Ok` says at what the object was found, `Err` why it was not.
+    pub(super) fn search(&mut self, task: &Task, room: &RoomFrame) -> Result<Result<String, String>, Halt> {
+        self.pilot.begin("search");
+        let arrived = self.pilot.pose();
+        self.pilot.sweep(SWEEP_RAD)?;
+        self.look_further(task, room, arrived)?;
+        if let Some(found) = self.try_candidates(task, room, arrived, &task.wanted)? {
+            return Ok(Ok(found));
+        }
+        if !self.options.no_fallback {
+            self.pilot.because("nothing the words fit holds it; trying all other table-like furniture, nearest first");
+            if let Some(found) = self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())? {
+                return Ok(Ok(found));
+            }
+            for lookout in lookouts(self.pilot.grid(), room, self.pilot.pose().position()) {
+                self.look_round_at(lookout)?;
+                if let Some(found) = self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())? {
+                    return Ok(Ok(found));
+                }
+            }
+        }
+        let object = task.object.unwrap_or("any portable object").replace('_', " ");
+        let place = Place { room, arrived };
+        let blame = blame(&self.pilot.beliefs, &task.wanted, place, self.lexicon)
+            .unwrap_or_else(|| "what fits every pair was looked at in vain".to_string());
+        let count = self.approached.len();
+        let why = format!("no {object} on any of {count} pieces of furniture looked at; {blame}");
+        self.pilot.end(&why);
+        Ok(Err(why))
+    }
+
+    /// While the best candidate is a guess, or a landmark that was named has not been seen, looks from elsewhere.
+    fn look_further(&mut self, task: &Task, room: &RoomFrame, arrived: Pose) -> Result<(), Halt> {
+        for lookout in lookouts(self.pilot.grid(), room, arrived.position()) {
+            let place = Place { room, arrived };
+            let best = rank(&self.pilot.beliefs, &task.wanted, place, self.lexicon).first().map_or(0.0, |r| r.score);
+            let missing = self.missing_reference(&task.wanted);
+            if best >= PLAUSIBLE && missing.is_none() {
+                return Ok(());
+            }
+            let reason =
+                missing.map_or("nothing here fits the words well".to_string(), |noun| format!("no {noun} seen yet"));
+            self.pilot.because(format!("{reason}; looking from ({:.1}, {:.1})", lookout.x, lookout.y));
+            self.look_round_at(lookout)?;
+        }
+        Ok(())
+    }
+
+    fn missing_reference(&self, wanted: &Wanted) -> Option<String> {
+        let unseen = |noun: &str| {
+            let is_furniture = self.lexicon.class_of(noun).is_some_and(|class| class != Class::Object);
+            let is_place = matches!(noun, "robot" | "move" | "room" | "wall" | "door");
+            is_furniture && !is_place && references(&self.pilot.beliefs, noun, self.lexicon).is_empty()
+        };
+        let nouns = wanted.pairs.iter().map(|pair| pair.pair.reference.as_str());
+        nouns.into_iter().find(|noun| unseen(noun)).map(|noun| noun.replace('_', " "))
+    }
+
+    fn look_round_at(&mut self, lookout: Vec2) -> Result<(), Halt> {
+        match self.pilot.go_to(lookout) {
+            Ok(()) => self.pilot.sweep(PI),
+            Err(Halt::Blocked(_)) => Ok(()),
+            Err(halt) => Err(halt),
+        }
+    }
+
+    fn try_candidates(
+        &mut self,
+        task: &Task,
+        room: &RoomFrame,
+        arrived: Pose,
+        wanted: &Wanted,
+    ) -> Result<Option<String>, Halt> {
+        loop {
+            let here = if self.options.blind { self.pilot.pose() } else { arrived };
+            let ranked = rank(&self.pilot.beliefs, wanted, Place { room, arrived: here }, self.lexicon);
+            let inside = |r: &&Ranked| room.outline.contains(self.pilot.beliefs.furniture[r.index].centre());
+            let ranked: Vec<&Ranked> = ranked.iter().filter(inside).collect();
+            let Some(choice) = self.choose(task, &ranked) else { return Ok(None) };
+            if let Some(found) = self.check(choice, task.object)? {
+                return Ok(Some(found));
+            }
+        }
+    }
+
+    /// The furniture on which the object was seen in passing, else the best ranked.
+    fn choose(&mut self, task: &Task, ranked: &[&Ranked]) -> Option<usize> {
+        let glances = !self.options.blind && !self.options.no_glance;
+        let seen = task.object.filter(|_| glances).and_then(|name| self.pilot.beliefs.sighting(Some(name)));
+        if let Some(index) = seen.and_then(|sighting| self.pilot.beliefs.under(vec2(sighting.x, sighting.y)))
+            && !self.pilot.beliefs.furniture[index].searched
+        {
+            let label = self.pilot.beliefs.furniture[index].label();
+            self.pilot.because(format!("{label}: the object was seen on it in passing, whatever the words prefer"));
+            return Some(index);
+        }
+        let best = ranked.first()?;
+        let describe =
+            |r: &Ranked| format!("{} {:.2} ({})", self.pilot.beliefs.furniture[r.index].label(), r.score, r.reading);
+        let mut reason = describe(best);
+        if let Some(next) = ranked.get(1) {
+            reason = format!("{reason} by {:.2} before {}", best.score - next.score, describe(next));
+        }
+        for other in ranked.iter().skip(2).take(MOST_TOLD) {
+            reason = format!("{reason}, {} {:.2}", self.pilot.beliefs.furniture[other.index].label(), other.score);
+        }
+        self.pilot.because(reason);
+        Some(best.index)
+    }
+
+    /// Goes where the furniture's top can be seen, and looks for the object.
+    fn check(&mut self, index: usize, object: Option<&str>) -> Result<Option<String>, Halt> {
+        let furniture = self.pilot.beliefs.furniture[index].clone();
+        self.pilot.beliefs.furniture[index].searched = true;
+        let poses = viewpoints(self.pilot.grid(), self.pilot.rooms(), self.pilot.pose().position(), &furniture);
+        let mut reached = false;
+        for pose in poses {
+            match self.pilot.go_to_pose(pose) {
+                Err(Halt::Blocked(_)) => continue,
+                other => other?,
+            }
+            if !reached {
+                self.approached.push(furniture.centre());
+                reached = true;
+            }
+            if let Some(sighting) = self.settle_on(&furniture.footprint, object)? {
+                self.found_at = Some(vec2(sighting.x, sighting.y));
+                return Ok(Some(format!("the {} is on {}", sighting.name.replace('_', " "), furniture.label())));
+            }
+        }
+        let object = object.unwrap_or("portable object").replace('_', " ");
+        self.pilot.because(if reached {
+            format!("no {object} on {}", furniture.label())
+        } else {
+            format!("no place from which {} can be looked at", furniture.label())
+        });
+        Ok(None)
+    }
+
+    /// Faces the object; when it is in the picture but cannot be told for sure, looks from a better place.
+    fn settle_on(&mut self, footprint: &Polygon, object: Option<&str>) -> Result<Option<ObjectSighting>, Halt> {
+        for _ in 0..MOST_SETTLING {
+            let Some(sighting) = self.sighted(footprint, object) else { return Ok(None) };
+            self.pilot.turn_to(bearing(self.pilot.pose(), &sighting))?;
+            self.pilot.look();
+            match self.sighted(footprint, object) {
+                Some(facing) if facing.recognisable => return Ok(Some(facing)),
+                _ => {}
+            }
+            let here = self.pilot.pose().position();
+            let Some(better) = better_view(self.pilot.grid(), self.pilot.rooms(), here, vec2(sighting.x, sighting.y))
+            else {
+                return Ok(None);
+            };
+            self.pilot.because("something is there that cannot be told from here; looking from a better place");
+            match self.pilot.go_to_pose(better) {
+                Err(Halt::Blocked(_)) => return Ok(None),
+                other => other?,
+            }
+        }
+        Ok(self.sighted(footprint, object).filter(|sighting| sighting.recognisable))
+    }
+
+    /// The object in the present picture: the named one, or any on the furniture when none is named.
+    fn sighted(&self, footprint: &Polygon, object: Option<&str>) -> Option<ObjectSighting> {
+        let on_it = |s: &&ObjectSighting| object.is_some() || footprint.distance_to(vec2(s.x, s.y)) < 0.1;
+        let named = |s: &&ObjectSighting| object.is_none_or(|name| s.name == name);
+        let seen = || self.pilot.view().objects.iter().filter(named).filter(on_it);
+        seen().find(|s| s.recognisable).or_else(|| seen().next()).cloned()
+    }
+}
+
+fn bearing(pose: Pose, sighting: &ObjectSighting) -> f64 {
+    let away = vec2(sighting.x, sighting.y) - pose.position();
+    away.y.atan2(away.x)
+}

@@ -1,0 +1,39 @@
+//! `evaluate perception`: detections against frames whose furniture is known.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use spatial_fetch::cli::{self, Common, Exit, Failure, Format};
+use spatial_fetch::evaluation::{furniture_tables, gold_frames, score_furniture};
+
+/// Scores the detections of records (as `perceive` writes them) against the frames' `items`:
+/// found, right among six kinds, right name, errors of place and heading, and what is not there.
+#[derive(Args)]
+pub struct Arguments {
+    /// The frames with their items
+    #[arg(long, value_name = "FILE")]
+    gold: PathBuf,
+    /// Score only frames of this `subset`
+    #[arg(long, value_name = "NAME")]
+    subset: Option<String>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+impl Arguments {
+    pub fn run(self) -> Result<Exit, Failure> {
+        let gold = cli::read_lines(std::slice::from_ref(&self.gold))?;
+        let records = cli::read_lines(&self.common.files)?;
+        let frames = gold_frames(&gold, &records, self.subset.as_deref()).map_err(Failure::Failed)?;
+        let scores = score_furniture(&frames);
+        let title = format!("{} frames of {}", frames.len(), self.gold.display());
+        let text = match self.common.format {
+            Format::Text => furniture_tables(&title, &scores),
+            Format::Json => serde_json::to_string(&scores).map_err(|e| Failure::Failed(e.to_string()))?,
+        };
+        let sink = cli::open_output(&self.common)?;
+        sink.write(format!("{text}\n").as_bytes())?;
+        sink.finish()?;
+        Ok(Exit::Done)
+    }
+}

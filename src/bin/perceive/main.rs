@@ -1,0 +1,101 @@
+//! Frames in, furniture out.
+
+mod fuse;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use clap::Parser;
+use spatial_fetch::cli::{self, Common, Exit, Failure, FrameInput, FromLog, Intake, Program};
+use spatial_fetch::perception::{Detector, ExternalDetector, Model, Perceiver};
+use spatial_fetch::record::Detection;
+use spatial_fetch::world::RoomMap;
+
+/// Finds furniture with pose in RGB-D frames.
+///
+/// Reads records that name colour and depth pictures with intrinsics and camera pose, and adds "detections".
+#[derive(Parser)]
+#[command(
+    name = "perceive",
+    version,
+    after_help = "Example:\n  perceive --format text --overlay seen fixtures/frames/frames.jsonl"
+)]
+struct Arguments {
+    /// Where relative paths of pictures begin [default: the folder of the first FILE]
+    #[arg(long, value_name = "DIR")]
+    folder: Option<PathBuf>,
+    /// Room map whose walls are no furniture; the frames' poses must be in its world
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+    /// Make one record of all frames with the same "scene" (or the same "frame" up to its last "_")
+    #[arg(long)]
+    fuse: bool,
+    /// Draw each frame with its boxes, and the grid map beside it, into this folder
+    #[arg(long, value_name = "DIR")]
+    overlay: Option<PathBuf>,
+    /// A model that `evaluate train` made [default: the one built in]
+    #[arg(long, value_name = "FILE", conflicts_with = "detector")]
+    model: Option<PathBuf>,
+    /// A command that detects instead: a frame as a JSON line in, a line with "detections" out
+    #[arg(long, value_name = "CMD")]
+    detector: Option<String>,
+    #[command(flatten)]
+    log: FromLog,
+    #[command(flatten)]
+    common: Common,
+}
+
+impl Arguments {
+    fn perceiver(&self) -> Result<Perceiver, Failure> {
+        let failed = |error: &dyn std::fmt::Display| Failure::Failed(error.to_string());
+        let beside = self.common.files.first().and_then(|file| file.parent().map(PathBuf::from));
+        let external = self.detector.as_deref().map(ExternalDetector::start).transpose().map_err(|e| failed(&e))?;
+        Ok(Perceiver {
+            folder: self.folder.clone().or(beside).unwrap_or_default(),
+            detector: self.model.as_deref().map_or_else(|| Ok(Detector::default()), load_detector)?,
+            external: external.map(Arc::new),
+            map: self.map.as_deref().map(RoomMap::load).transpose().map_err(|e| failed(&e))?,
+            overlay: self.overlay.clone(),
+            force: self.common.force,
+        })
+    }
+}
+
+fn load_detector(path: &Path) -> Result<Detector, Failure> {
+    let bytes = std::fs::read(path).map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
+    let model = Model::read(&bytes);
+    let wrong = || format!("{}: not a model of this version; `evaluate train` makes one", path.display());
+    model.map(Detector::new).ok_or_else(|| Failure::Failed(wrong()))
+}
+
+impl Program for Arguments {
+    const NAME: &'static str = "perceive";
+    fn common(&self) -> &Common {
+        &self.common
+    }
+    fn schema() -> schemars::Schema {
+        schemars::schema_for!(Vec<Detection>)
+    }
+    fn reads_standard_input(&self) -> bool {
+        self.log.from.is_none() && self.common.files.is_empty()
+    }
+    fn run(self) -> Result<Exit, Failure> {
+        let perceiver = self.perceiver()?;
+        if self.fuse {
+            return fuse::run(&self.common, &perceiver);
+        }
+        match FrameInput::open(&self.common.files, &self.log)? {
+            FrameInput::Lines(mut lines) => {
+                cli::run_filter_on(Self::NAME, &self.common, &mut lines, Intake::Records, &perceiver)
+            }
+            FrameInput::Logs(logs) => cli::run_frames(Self::NAME, &self.common, logs, &perceiver, &|frame, record| {
+                perceiver.see(frame, record)
+            }),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    cli::main::<Arguments>()
+}

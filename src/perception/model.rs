@@ -1,0 +1,87 @@
+//! What was learned from rendered rooms: three forests, and the sizes of furniture.
+
+use std::sync::{Arc, LazyLock};
+
+use super::forest::{Forest, take};
+use crate::world::Size;
+
+/// The first bytes of a model file.
+const MAGIC: &[u8; 8] = b"SFPERC01";
+/// The categories a piece may be of; after them comes "none of these".
+pub const CATEGORIES: [&str; 16] = [
+    "table",
+    "coffee_table",
+    "desk",
+    "nightstand",
+    "chair",
+    "armchair",
+    "stool",
+    "couch",
+    "bed",
+    "wardrobe",
+    "dresser",
+    "bookshelf",
+    "shelf",
+    "cabinet",
+    "tv_stand",
+    "lamp",
+];
+/// The class of what is no furniture.
+pub const NOTHING: usize = CATEGORIES.len();
+
+/// All that the detector has learned.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Model {
+    /// Whether two patches are one piece.
+    pub joining: Forest,
+    /// Which category a piece is of.
+    pub category: Forest,
+    /// Whether a side of a piece is its front.
+    pub front: Forest,
+    /// Sizes of pieces of each category.
+    pub sizes: Vec<Vec<Size>>,
+}
+
+impl Model {
+    /// The model that is shipped; `perceive train` makes it anew.
+    pub fn shipped() -> Arc<Self> {
+        static SHIPPED: LazyLock<Arc<Model>> = LazyLock::new(|| {
+            // Embedded and tested: it cannot fail.
+            Arc::new(Model::read(include_bytes!("furniture.model")).unwrap_or_default())
+        });
+        SHIPPED.clone()
+    }
+
+    /// The model as a file.
+    pub fn write(&self) -> Vec<u8> {
+        let mut bytes = MAGIC.to_vec();
+        for forest in [&self.joining, &self.category, &self.front] {
+            forest.write(&mut bytes);
+        }
+        for sizes in &self.sizes {
+            bytes.extend((sizes.len() as u16).to_le_bytes());
+            let millimetres =
+                sizes.iter().flat_map(|s| [s.length, s.width, s.height]).map(|v| (v * 1000.0).round() as u16);
+            bytes.extend(millimetres.flat_map(u16::to_le_bytes));
+        }
+        bytes
+    }
+
+    /// Reads a model file; nothing when it is none, or of another version.
+    pub fn read(mut bytes: &[u8]) -> Option<Self> {
+        let bytes = &mut bytes;
+        if &take::<8>(bytes)? != MAGIC {
+            return None;
+        }
+        let [joining, category, front] = [Forest::read(bytes)?, Forest::read(bytes)?, Forest::read(bytes)?];
+        let mut sizes = Vec::new();
+        for _ in CATEGORIES {
+            let count = u16::from_le_bytes(take(bytes)?);
+            let mut number = || take(bytes).map(|raw| f64::from(u16::from_le_bytes(raw)) / 1000.0);
+            let some: Option<Vec<Size>> =
+                (0..count).map(|_| Some(Size { length: number()?, width: number()?, height: number()? })).collect();
+            sizes.push(some?);
+        }
+        Some(Self { joining, category, front, sizes })
+    }
+}

@@ -1,0 +1,84 @@
+//! Depth pixels as points over the floor, seen from the camera's place on it.
+
+use super::floor::FloorPlane;
+use crate::frame::RgbdFrame;
+use crate::geometry::{Pose, vec2};
+
+/// Every so many-th pixel is read, along both sides: at 5 m still two a cell.
+pub const STRIDE: usize = 2;
+/// Beyond this the sensor's depth steps are coarser than furniture, metres.
+pub const FARTHEST_M: f32 = 6.6;
+
+/// The points of one frame: x ahead, y to the left, z up, metres; the origin is the floor below the camera.
+#[derive(Clone, Debug)]
+pub struct Points {
+    /// Sampled pixels across.
+    pub columns: usize,
+    /// Sampled pixels down.
+    pub rows: usize,
+    /// Row by row; x is 0 where nothing came back.
+    pub xyz: Vec<[f32; 3]>,
+    /// Where that origin and heading lie in the world.
+    pub camera: Pose,
+    /// The camera above the floor, metres.
+    pub camera_height: f32,
+    /// How many metres the uppermost row climbs for each metre ahead.
+    pub climb: f32,
+    /// The widest row's half width for each metre ahead.
+    pub spread: f32,
+}
+
+/// The points of a frame, with the floor turned to z = 0.
+pub fn points(frame: &RgbdFrame) -> Points {
+    let mut points = unproject(frame);
+    if let Some(plane) = FloorPlane::fit(&points.xyz) {
+        plane.level(&mut points.xyz);
+    }
+    points
+}
+
+fn unproject(frame: &RgbdFrame) -> Points {
+    let m = &frame.world_from_camera;
+    let heading = m[1][2].atan2(m[0][2]);
+    let (sin, cos) = heading.sin_cos();
+    // Rows of the rotation from the camera to the frame with x ahead and y to the left.
+    let row = |a: usize, b: usize, s: f64, c: f64| [0, 1, 2].map(|k| (c * m[a][k] + s * m[b][k]) as f32);
+    let (ahead, left) = (row(0, 1, sin, cos), row(1, 0, -sin, cos));
+    let up = [0, 1, 2].map(|k| m[2][k] as f32);
+    let k = frame.intrinsics;
+    let across: Vec<f32> =
+        (0..frame.width).step_by(STRIDE).map(|column| ((column as f64 - k.cx) / k.fx) as f32).collect();
+    let (columns, rows) = (across.len(), frame.height.div_ceil(STRIDE));
+    let (unit, height) = (frame.depth_unit_m as f32, m[2][3] as f32);
+    let mut xyz = Vec::with_capacity(columns * rows);
+    for line in 0..rows {
+        let down = ((((line * STRIDE) as f64) - k.cy) / k.fy) as f32;
+        let base = |v: &[f32; 3]| v[1] * down + v[2];
+        let (bx, by, bz) = (base(&ahead), base(&left), base(&up));
+        let depths = frame.depth[line * STRIDE * frame.width..].iter().step_by(STRIDE);
+        xyz.extend(across.iter().zip(depths).map(|(&right, &depth)| {
+            let z = f32::from(depth) * unit;
+            if z > FARTHEST_M {
+                return [0.0; 3];
+            }
+            [
+                (ahead[0] * right + bx) * z,
+                (left[0] * right + by) * z,
+                (up[0] * right + bz) * z + if z > 0.0 { height } else { 0.0 },
+            ]
+        }));
+    }
+    let top = ((0.0 - k.cy) / k.fy) as f32;
+    let (up_top, ahead_top) = (up[1] * top + up[2], ahead[1] * top + ahead[2]);
+    let spread =
+        across.iter().fold(0.0_f32, |widest, right| widest.max(right.abs())) / ahead_top.min(ahead[2]).max(0.3);
+    Points {
+        columns,
+        rows,
+        xyz,
+        camera: Pose { heading, ..Pose::new(vec2(m[0][3], m[1][3]).x, m[1][3], 0.0) },
+        camera_height: height,
+        climb: up_top / ahead_top.max(0.2),
+        spread,
+    }
+}
