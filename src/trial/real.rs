@@ -147,7 +147,7 @@ fn run(
     watcher: &mut dyn Watcher,
 ) -> Run {
     let report = Executive::new(&home.map, base, eyes, watcher, settings.options).run(plan);
-    let (pose, duration_s) = (base.pose(), base.time_s());
+    let (pose, duration_s) = (report.pose, base.time_s());
     let mut path = report.journal.path;
     path.push(PathPoint::new(duration_s, pose));
     let trial = Trial {

@@ -10,8 +10,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::Home;
-use super::stream_eyes::placed;
-use crate::geometry::{Pose, vec2};
+use super::stream_eyes::{inverse, placed};
+use crate::geometry::Pose;
 use crate::recording::{FrameWriter, TimedFrame};
 use crate::robot::arcos::server::{ServeAddress, Server, ServerSettings, serve};
 use crate::robot::simulated::{Obstacles, SimulatedBase};
@@ -74,12 +74,6 @@ fn note(whereabouts: &Mutex<Whereabouts>, server: &Server) {
     *whereabouts.lock().unwrap_or_else(PoisonError::into_inner) = Whereabouts { truth, believed: server.odometry() };
 }
 
-/// The pose that undoes `pose`.
-fn inverse(pose: Pose) -> Pose {
-    let at = pose.to_local(vec2(0.0, 0.0));
-    Pose::new(at.x, at.y, -pose.heading)
-}
-
 /// Films on a thread of its own, so that no picture makes a packet late. Pictures bear the time of day.
 fn film(path: PathBuf, home: Home, whereabouts: Arc<Mutex<Whereabouts>>, seed: u64) -> io::Result<()> {
     std::thread::Builder::new().name("camera".to_string()).spawn(move || {
@@ -94,7 +88,7 @@ fn roll(path: &Path, home: &Home, whereabouts: &Mutex<Whereabouts>, seed: u64) -
     let (kinect, mut rng) = (Kinect::default(), ChaCha8Rng::seed_from_u64(seed));
     let text = |error: &dyn std::fmt::Display| error.to_string();
     // A FIFO opens when its reader comes.
-    let file = OpenOptions::new().write(true).create(true).open(path).map_err(|error| text(&error))?;
+    let file = OpenOptions::new().write(true).create(true).truncate(true).open(path).map_err(|error| text(&error))?;
     let mut writer = FrameWriter::new(file).map_err(|error| text(&error))?;
     loop {
         let began = Instant::now();

@@ -2,12 +2,12 @@
 
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::frame::RgbdFrame;
-use crate::geometry::{Pose, wrap_angle};
+use crate::geometry::{Pose, vec2, wrap_angle};
 use crate::perception::{Detector, Eyes, View};
 use crate::recording::{Follow, FrameOptions, FrameReader, TimedFrame};
 use crate::robot::arcos::client::Stopper;
@@ -74,14 +74,14 @@ impl StreamEyes {
     }
 
     /// The newest frame; while the robot stands, one taken where it stands.
-    fn newest(&mut self, believed: Pose) -> Option<TimedFrame> {
+    fn newest(&mut self, odometry: Pose) -> Option<TimedFrame> {
         let standing = !self.robot.is_moving();
         let patience = if self.seen == 0 { FIRST_WITHIN } else { FRESH_WITHIN };
         let until = Instant::now() + patience;
         let mut newest = self.stream.newest.lock().unwrap_or_else(PoisonError::into_inner);
         loop {
             let fresh =
-                newest.frame.as_ref().is_some_and(|frame| taken_at(frame, believed, newest.count > self.seen + 1));
+                newest.frame.as_ref().is_some_and(|frame| taken_at(frame, odometry, newest.count > self.seen + 1));
             let moving_on = !standing && newest.count > 0;
             if fresh || moving_on || newest.ended.is_some() || Instant::now() >= until {
                 self.seen = newest.count;
@@ -94,20 +94,24 @@ impl StreamEyes {
 }
 
 /// Whether a frame was taken where the robot stands; when the stream does not say where, the second one after a halt was.
-fn taken_at(frame: &TimedFrame, believed: Pose, is_second: bool) -> bool {
+fn taken_at(frame: &TimedFrame, odometry: Pose, is_second: bool) -> bool {
     frame.robot.map_or(is_second, |at| {
-        at.distance_to(believed.position()) < SAME_PLACE_M
-            && wrap_angle(at.heading - believed.heading).abs() < SAME_HEADING_RAD
+        at.distance_to(odometry.position()) < SAME_PLACE_M
+            && wrap_angle(at.heading - odometry.heading).abs() < SAME_HEADING_RAD
     })
 }
 
 impl Eyes for StreamEyes {
     fn look(&mut self, believed: Pose) -> View {
-        let Some(timed) = self.newest(believed) else { return View::default() };
+        let odometry = self.robot.pose();
+        let Some(timed) = self.newest(odometry) else { return View::default() };
         let mut frame = timed.frame;
-        if timed.robot.is_none() {
-            frame.world_from_camera = placed(&frame.world_from_camera, believed);
-        }
+        // A stream knows odometry; the executive may know better.
+        let camera = match timed.robot {
+            Some(_) => placed(&frame.world_from_camera, inverse(odometry)),
+            None => frame.world_from_camera,
+        };
+        frame.world_from_camera = placed(&camera, believed);
         let view = self.detector.detect(&frame, Some(&self.map));
         self.last = Some(frame);
         view
@@ -116,6 +120,12 @@ impl Eyes for StreamEyes {
     fn frame(&self) -> Option<&RgbdFrame> {
         self.last.as_ref()
     }
+}
+
+/// The pose that undoes `pose`.
+pub(super) fn inverse(pose: Pose) -> Pose {
+    let at = pose.to_local(vec2(0.0, 0.0));
+    Pose::new(at.x, at.y, -pose.heading)
 }
 
 /// A camera that is known from its robot, on a robot at `pose`.
@@ -137,7 +147,7 @@ fn read(path: &Path, stream: &Arc<Stream>) -> Result<(), String> {
     let source = open(path).map_err(|error| named(error.to_string()))?;
     let mut frames =
         FrameReader::new(source, &name, FrameOptions::default()).map_err(|error| named(error.to_string()))?;
-    while let Some(read) = frames.next() {
+    for read in &mut frames {
         // What is lost on the way is one picture less.
         let Ok(frame) = read else { continue };
         let mut newest = stream.newest.lock().unwrap_or_else(PoisonError::into_inner);
@@ -152,7 +162,7 @@ fn read(path: &Path, stream: &Arc<Stream>) -> Result<(), String> {
 }
 
 fn open(path: &Path) -> io::Result<Box<dyn Read + Send>> {
-    if path == PathBuf::from("-") {
+    if path == Path::new("-") {
         return Ok(Box::new(io::stdin()));
     }
     let file = File::open(path)?;

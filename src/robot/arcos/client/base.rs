@@ -17,6 +17,7 @@ const ENDS_WITHIN: Duration = Duration::from_secs(3);
 /// What program and thread share.
 #[derive(Default)]
 struct State {
+    start: Pose,
     ask: Option<(f64, f64)>,
     report: Report,
     events: Vec<Event>,
@@ -68,6 +69,12 @@ impl Stopper {
         linear.abs() > 0.005 || angular.abs() > 0.01
     }
 
+    /// Where its odometry believes it is, in the frame of the map.
+    pub fn pose(&self) -> Pose {
+        let state = self.0.lock();
+        in_map(state.start, state.report.pose)
+    }
+
     /// What happened since this was last asked.
     pub fn take_events(&self) -> Vec<Event> {
         std::mem::take(&mut self.0.lock().events)
@@ -93,7 +100,7 @@ impl ArcosBase {
         let preflight = client.preflight();
         let report = client.report().clone();
         let shared = Arc::new(Shared::default());
-        shared.lock().report = report.clone();
+        *shared.lock() = State { start, report: report.clone(), ..State::default() };
         let theirs = Arc::clone(&shared);
         let thread = std::thread::Builder::new().name("robot".to_string()).spawn(move || run(client, &theirs));
         let thread = thread.map_err(|error| ConnectError::Line("the robot's thread".to_string(), error))?;
@@ -125,6 +132,12 @@ impl ArcosBase {
     pub fn report(&self) -> &Report {
         &self.report
     }
+}
+
+/// A pose relative to `start`, in the frame of the map.
+fn in_map(start: Pose, own: Pose) -> Pose {
+    let at = start.to_world(own.position());
+    Pose::new(at.x, at.y, wrap_angle(start.heading + own.heading))
 }
 
 fn run<L: Line>(mut client: Client<L>, shared: &Shared) {
@@ -168,9 +181,7 @@ impl Drop for ArcosBase {
 
 impl MobileBase for ArcosBase {
     fn pose(&self) -> Pose {
-        let own = self.report.pose;
-        let at = self.start.to_world(own.position());
-        Pose::new(at.x, at.y, wrap_angle(self.start.heading + own.heading))
+        in_map(self.start, self.report.pose)
     }
 
     fn velocity(&self) -> (f64, f64) {

@@ -14,9 +14,11 @@ use crate::robot::{MobileBase, RobotError, SonarReading, Status};
 /// Between two commands (Operations Manual: 3 to 5 ms).
 pub(super) const SPACING: Duration = Duration::from_millis(4);
 /// A stop is repeated this often until the robot stands.
-const STOP_AGAIN: Duration = Duration::from_millis(60);
+const STOP_AGAIN: Duration = Duration::from_millis(20);
+/// A report that comes sooner than this after a command was made before it.
+const HEARS_WITHIN: Duration = Duration::from_millis(120);
 /// A robot with nothing to do hears from us this often.
-const PULSE: Duration = Duration::from_millis(500);
+const IDLE: Duration = Duration::from_millis(500);
 /// Faults of the line are summed up over this time.
 const SUM_UP: Duration = Duration::from_secs(1);
 /// One turn of the loop waits for bytes no longer than this.
@@ -47,6 +49,8 @@ pub struct Client<L: Line> {
     /// The velocity the robot was last told, mm/s and °/s.
     pub(super) told: (i32, i32),
     pub(super) told_at: Duration,
+    /// Since when it is told to stand.
+    pub(super) zero_at: Duration,
     pub(super) heard_at: Duration,
     pub(super) guarding: bool,
     pub(super) low_battery: bool,
@@ -82,6 +86,7 @@ impl<L: Line> Client<L> {
             ask: None,
             told: (0, 0),
             told_at: now,
+            zero_at: now,
             heard_at: now,
             guarding: false,
             low_battery: false,
@@ -202,35 +207,47 @@ impl<L: Line> Client<L> {
         ((speed * 1000.0) as i32, ask.angular.to_degrees().round() as i32)
     }
 
-    /// Sends what is due: a velocity each time it is asked for, a stop until the robot stands, a pulse now and then.
+    /// Sends what is due: a velocity each time it is asked for, zero until the robot stands and now and then after it.
+    ///
+    /// Zero goes as VEL2, one packet for both: after a silence the first packet
+    /// is the sign to take up the old set-points, and must replace them all.
     pub(super) fn steer(&mut self) -> io::Result<()> {
         let now = self.line.now();
         let wanted = self.wanted();
-        let since = now.saturating_sub(self.told_at);
-        let standing = self.report.velocity.0.abs() < 0.005 && self.report.velocity.1.abs() < 0.01;
         let is_new = self.ask.is_some_and(|ask| !ask.sent);
-        let due = if wanted == (0, 0) {
-            self.told != wanted || (!standing && since >= STOP_AGAIN)
-        } else {
-            is_new || self.told != wanted
-        };
         if let Some(ask) = &mut self.ask {
             ask.sent = true;
         }
-        if due {
-            self.told = wanted;
-            self.send(&Command::int(number::VEL, wanted.0))?;
-            return self.send_spaced(&Command::int(number::RVEL, wanted.1));
+        if wanted == (0, 0) {
+            return self.stand(now);
         }
-        if wanted == (0, 0) && since >= PULSE {
-            if self.settings.resume && self.wants_motors && !self.report.motors && !self.report.emergency_stop {
-                self.send(&Command::int(number::VEL, 0))?;
-                self.send_spaced(&Command::int(number::RVEL, 0))?;
-                return self.send_spaced(&Command::int(number::ENABLE, 1));
-            }
-            return self.send(&Command::bare(number::PULSE));
+        if !is_new && self.told == wanted {
+            return Ok(());
         }
-        Ok(())
+        self.told = wanted;
+        self.send(&Command::int(number::VEL, wanted.0))?;
+        self.send_spaced(&Command::int(number::RVEL, wanted.1))
+    }
+
+    fn stand(&mut self, now: Duration) -> io::Result<()> {
+        let since = now.saturating_sub(self.told_at);
+        let is_new = self.told != (0, 0);
+        if is_new {
+            (self.told, self.zero_at) = ((0, 0), now);
+        }
+        let again = if self.stands() { IDLE } else { STOP_AGAIN };
+        if !is_new && since < again {
+            return Ok(());
+        }
+        self.send(&Command::int(number::VEL2, 0))?;
+        let frees = self.settings.resume && self.wants_motors && !self.report.motors && !self.report.emergency_stop;
+        if frees { self.send_spaced(&Command::int(number::ENABLE, 1)) } else { Ok(()) }
+    }
+
+    /// Whether the robot says that it stands, and said so after it was told to.
+    pub(super) fn stands(&self) -> bool {
+        let (linear, angular) = self.report.velocity;
+        linear.abs() < 0.005 && angular.abs() < 0.01 && self.heard_at > self.zero_at + HEARS_WITHIN
     }
 
     /// Sends a command after a pause for the one before it.

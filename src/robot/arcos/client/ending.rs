@@ -61,12 +61,7 @@ impl<L: Line> Client<L> {
 
     /// To a robot that is not heard, but may hear.
     fn call_out(&mut self) -> io::Result<()> {
-        for command in [
-            Command::int(number::VEL, 0),
-            Command::int(number::RVEL, 0),
-            Command::int(number::ENABLE, 0),
-            Command::bare(number::CLOSE),
-        ] {
+        for command in [Command::int(number::VEL2, 0), Command::int(number::ENABLE, 0), Command::bare(number::CLOSE)] {
             self.send(&command)?;
             self.line.sleep(SPACING);
         }
@@ -77,14 +72,10 @@ impl<L: Line> Client<L> {
         self.ask = None;
         self.told = (1, 1);
         let until = self.line.now() + STANDS_WITHIN;
-        let sips = self.report.sips;
-        loop {
-            self.steer()?;
+        self.steer()?;
+        while !self.stands() && self.line.now() < until {
             self.read(TURN)?;
-            let standing = self.report.velocity.0.abs() < 0.005 && self.report.velocity.1.abs() < 0.01;
-            if (standing && self.report.sips > sips) || self.line.now() >= until {
-                break;
-            }
+            self.steer()?;
         }
         self.send_spaced(&Command::int(number::ENABLE, 0))?;
         self.send_spaced(&Command::bare(number::CLOSE))?;

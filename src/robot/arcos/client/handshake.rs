@@ -12,6 +12,8 @@ const ANSWER: Duration = Duration::from_millis(500);
 const TRIES_A_RATE: u32 = 3;
 /// Tries in all on a line without rates.
 const TRIES: u32 = 8;
+/// Zero set-points before each try: enough that one comes through a bad line.
+const ZEROS: u32 = 4;
 /// "The numbers came out of order."
 const WRONG_COUNT: u8 = 255;
 
@@ -128,8 +130,9 @@ impl<'a, L: Line> Handshake<'a, L> {
     /// Zero set-points go first: to a session that someone left open, the first
     /// packet would be the sign to take up its old velocity again.
     fn attempt(&mut self) -> Result<Step, HandshakeError> {
-        self.write(&Command::int(number::VEL, 0))?;
-        self.write(&Command::int(number::RVEL, 0))?;
+        for _ in 0..ZEROS {
+            self.write(&Command::int(number::VEL2, 0))?;
+        }
         let mut answer = None;
         for sync in 0..3 {
             self.write(&Command::bare(sync))?;

@@ -1,5 +1,6 @@
 //! Framing: `FA FB`, a count, a number, data, and a checksum.
 
+use std::collections::VecDeque;
 use std::time::Duration;
 
 /// Two bytes begin every packet. They may also occur inside data: there is no escape.
@@ -91,17 +92,18 @@ impl Counters {
 #[derive(Clone, Debug, Default)]
 pub struct Decoder {
     buffer: Vec<u8>,
-    begun: Option<Duration>,
+    /// When the bytes of the buffer came: how many of them, and the time.
+    arrivals: VecDeque<(usize, Duration)>,
     counters: Counters,
 }
 
 impl Decoder {
     /// Takes in bytes that arrived at `now`.
     pub fn push(&mut self, bytes: &[u8], now: Duration) {
-        if self.buffer.is_empty() {
-            self.begun = Some(now);
+        if !bytes.is_empty() {
+            self.arrivals.push_back((bytes.len(), now));
+            self.buffer.extend_from_slice(bytes);
         }
-        self.buffer.extend_from_slice(bytes);
     }
 
     /// The next whole packet. One that has begun and is not whole after 100 ms is given up.
@@ -111,26 +113,26 @@ impl Decoder {
             let count = usize::from(*self.buffer.get(2)?);
             if count < LEAST_COUNT {
                 self.counters.bad_count += 1;
-                self.reject(now);
+                self.reject();
                 continue;
             }
             if self.buffer.len() < count + 3 {
-                if now.saturating_sub(self.begun.unwrap_or(now)) <= WHOLE_WITHIN {
+                let begun = self.arrivals.front().map_or(now, |(_, time)| *time);
+                if now.saturating_sub(begun) <= WHOLE_WITHIN {
                     return None;
                 }
                 self.counters.cut_short += 1;
-                self.reject(now);
+                self.reject();
                 continue;
             }
             let (body, sum) = (&self.buffer[3..count + 1], &self.buffer[count + 1..count + 3]);
             if checksum(body).to_be_bytes() != sum {
                 self.counters.bad_checksum += 1;
-                self.reject(now);
+                self.reject();
                 continue;
             }
             let packet = Packet { kind: body[0], data: body[1..].to_vec() };
-            self.buffer.drain(..count + 3);
-            self.begun = Some(now);
+            self.consume(count + 3);
             self.counters.good += 1;
             return Some(packet);
         }
@@ -143,14 +145,26 @@ impl Decoder {
 
     /// Forgets a packet that has begun: the line is a new one.
     pub fn clear(&mut self) {
-        self.buffer.clear();
+        self.consume(self.buffer.len());
     }
 
     /// Gives up the header at the front; what follows may hold another.
-    fn reject(&mut self, now: Duration) {
-        self.buffer.drain(..1);
+    fn reject(&mut self) {
+        self.consume(1);
         self.counters.skipped += 1;
-        self.begun = Some(now);
+    }
+
+    fn consume(&mut self, count: usize) {
+        self.buffer.drain(..count);
+        let mut left = count;
+        while let Some((bytes, _)) = self.arrivals.front_mut().filter(|_| left > 0) {
+            let taken = left.min(*bytes);
+            *bytes -= taken;
+            left -= taken;
+            if *bytes == 0 {
+                self.arrivals.pop_front();
+            }
+        }
     }
 
     /// Drops what cannot begin a packet. A last `FA` may be half a header.
@@ -158,7 +172,7 @@ impl Decoder {
         let starts = |i: &usize| self.buffer[*i] == HEADER[0] && self.buffer.get(i + 1).is_none_or(|b| *b == HEADER[1]);
         let at = (0..self.buffer.len()).find(starts).unwrap_or(self.buffer.len());
         self.counters.skipped += at as u64;
-        self.buffer.drain(..at);
+        self.consume(at);
     }
 }
 

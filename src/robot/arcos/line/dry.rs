@@ -1,7 +1,7 @@
 //! A line that touches nothing: an ideal robot answers, and every command is printed.
 
 use std::io;
-use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
 use super::Line;
@@ -63,11 +63,8 @@ impl Line for DryLine {
         {
             self.waiting.extend(bytes);
         }
-        loop {
-            match self.answers.try_recv() {
-                Ok(bytes) => self.waiting.extend(bytes),
-                Err(TryRecvError::Empty | TryRecvError::Disconnected) => break,
-            }
+        while let Ok(bytes) = self.answers.try_recv() {
+            self.waiting.extend(bytes);
         }
         let count = self.waiting.len().min(buffer.len());
         buffer[..count].copy_from_slice(&self.waiting[..count]);
