@@ -107,6 +107,7 @@ impl<'a> Executive<'a> {
                 (Outcome::Timeout, format!("{during}not found within {limit} s"))
             }
             Err(Halt::Stopped) => (Outcome::Stopped, "told to stop".to_string()),
+            Err(Halt::Held(why)) => (Outcome::Stopped, why),
             Err(Halt::LinkLost(why)) => (Outcome::LinkLost, why),
         };
         self.pilot.end(&why);
@@ -132,6 +133,9 @@ impl<'a> Executive<'a> {
             let frame = RoomFrame::of(self.map, room, self.pilot.pose());
             for action in &task.steps {
                 self.step(action, &frame)?;
+            }
+            if !self.pilot.can_see() {
+                return Ok((Outcome::Arrived, without_camera(plan)));
             }
             match self.search(&task, &frame)? {
                 Ok(found) => return Ok((Outcome::Found, found)),
@@ -240,5 +244,18 @@ impl<'a> Executive<'a> {
         let label = furniture.label();
         self.pilot.because(format!("by {label}"));
         Ok(Some(result))
+    }
+}
+
+/// What a robot without a camera has left undone.
+fn without_camera(plan: &Plan) -> String {
+    let wanted = plan.actions.iter().find_map(|action| match action {
+        Action::Search { target: Some(target), .. } => Some(target.replace('_', " ")),
+        Action::Find { object: Some(object) } => Some(object.replace('_', " ")),
+        _ => None,
+    });
+    match wanted {
+        Some(wanted) => format!("the moves are done; to look for the {wanted} a camera is needed (--camera FILE)"),
+        None => "the moves are done".to_string(),
     }
 }

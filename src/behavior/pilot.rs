@@ -31,13 +31,18 @@ pub enum Halt {
     Timeout,
     /// Someone asked to stop.
     Stopped,
+    /// The robot is held, by its STOP button or a stall; says by what.
+    Held(String),
     /// The robot no longer answers; says why.
     LinkLost(String),
 }
 
 impl From<RobotError> for Halt {
     fn from(error: RobotError) -> Self {
-        Self::LinkLost(error.to_string())
+        match error {
+            RobotError::Link(_) => Self::LinkLost(error.to_string()),
+            RobotError::Held(why) => Self::Held(why),
+        }
     }
 }
 
@@ -91,6 +96,11 @@ impl<'a> Pilot<'a> {
     /// Where the robot believes it is.
     pub fn pose(&self) -> Pose {
         self.localizer.pose()
+    }
+
+    /// Whether the robot has a camera.
+    pub fn can_see(&self) -> bool {
+        self.eyes.can_see()
     }
 
     /// The planning grid: rooms and all furniture seen.

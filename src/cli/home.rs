@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::Failure;
 use crate::trial::Home;
+use crate::world::{RoomMap, WorldError, load_map};
 
 /// The simulated home.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -12,13 +13,25 @@ pub struct HomeArguments {
     #[arg(long, value_name = "WORLD", visible_alias = "scene")]
     pub world: Option<PathBuf>,
     /// Room map, where the scene file does not lead to it
-    #[arg(long, value_name = "MAP", requires = "world")]
+    #[arg(long, value_name = "MAP")]
     pub map: Option<PathBuf>,
 }
 
 impl HomeArguments {
     /// The home they name; the apartment where they name none.
     pub fn load(&self) -> Result<Home, Failure> {
-        Home::load(self.map.as_deref(), self.world.as_deref()).map_err(|error| Failure::Failed(error.to_string()))
+        if self.map.is_some() && self.world.is_none() {
+            return Err(Failure::Usage("--map needs the --world that stands on it".to_string()));
+        }
+        Home::load(self.map.as_deref(), self.world.as_deref()).map_err(failed)
     }
+
+    /// What may be known of where a real robot is: the rooms alone.
+    pub fn rooms(&self) -> Result<RoomMap, Failure> {
+        self.map.as_deref().map_or_else(|| Ok(RoomMap::apartment()), load_map).map_err(failed)
+    }
+}
+
+fn failed(error: WorldError) -> Failure {
+    Failure::Failed(error.to_string())
 }

@@ -7,6 +7,7 @@ use clap::{Parser, ValueEnum};
 use clap_complete::Shell;
 use schemars::Schema;
 
+use super::interrupt::yield_to_interrupt;
 use super::{Common, Exit, Failure, Reporter, exit};
 
 /// A binary: its arguments, what it adds to a record, and its work.
@@ -49,6 +50,7 @@ pub fn main<P: Program>() -> ExitCode {
     };
     let reporter = Reporter::new(P::NAME, program.common());
     let result = dispatch(program);
+    yield_to_interrupt();
     match &result {
         Err(Failure::BrokenPipe) | Ok(_) => {}
         Err(failure) => reporter.fatal(&failure.to_string()),

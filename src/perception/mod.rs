@@ -58,6 +58,11 @@ pub trait Eyes {
     /// What is seen now; `believed` is where the robot believes it stands, and the frame of the answer.
     fn look(&mut self, believed: Pose) -> View;
 
+    /// Whether there is a camera at all.
+    fn can_see(&self) -> bool {
+        true
+    }
+
     /// The camera's frame behind the last look; none for eyes without a camera.
     fn frame(&self) -> Option<&RgbdFrame> {
         None

@@ -2,6 +2,7 @@
 //!
 //! Nothing here plans: a base takes velocities and reports what it measures.
 
+pub mod arcos;
 pub mod p3dx;
 pub mod simulated;
 pub mod sonar;
@@ -60,4 +61,7 @@ pub enum RobotError {
     /// It does not answer.
     #[error("the robot does not answer: {0}")]
     Link(String),
+    /// It is held, by its STOP button, a stall or a person, and stands.
+    #[error("{0}")]
+    Held(String),
 }

@@ -45,9 +45,47 @@ const SONARS: [(f64, f64, f64); 16] = [
     (-157.0, 136.0, 90.0),
 ];
 
-/// Mount (metres) and bearing (radians) of each sonar.
+/// The same for the older array (Player; ARIA 2.7.3): the front half, of which the rear one is the mirror image.
+const OLDER_FRONT_SONARS: [(f64, f64, f64); 8] = [
+    (115.0, 130.0, 90.0),
+    (155.0, 115.0, 50.0),
+    (190.0, 80.0, 30.0),
+    (210.0, 25.0, 10.0),
+    (210.0, -25.0, -10.0),
+    (190.0, -80.0, -30.0),
+    (155.0, -115.0, -50.0),
+    (115.0, -130.0, -90.0),
+];
+
+/// Which of the two published sonar arrays a robot has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum SonarArray {
+    /// ARIA since 2.8, AMRISim.
+    #[default]
+    Newer,
+    /// Player, ARIA 2.7.3.
+    Older,
+}
+
+impl SonarArray {
+    /// Mount (metres) and bearing (radians) of sonar `number`, 0 to 15.
+    pub fn sonar(self, number: u8) -> Option<(Vec2, f64)> {
+        let index = usize::from(number);
+        let (x, y, deg) = match self {
+            Self::Newer => *SONARS.get(index)?,
+            Self::Older if index < 8 => OLDER_FRONT_SONARS[index],
+            Self::Older => {
+                let (x, y, deg) = *OLDER_FRONT_SONARS.get(15_usize.checked_sub(index)?)?;
+                (-x, y, if deg < 0.0 { -180.0 - deg } else { 180.0 - deg })
+            }
+        };
+        Some((vec2(x / 1000.0, y / 1000.0), deg.to_radians()))
+    }
+}
+
+/// Mount (metres) and bearing (radians) of each sonar of the newer array.
 pub fn sonars() -> impl Iterator<Item = (Vec2, f64)> {
-    SONARS.iter().map(|&(x, y, deg)| (vec2(x / 1000.0, y / 1000.0), deg.to_radians()))
+    (0..16).filter_map(|number| SonarArray::Newer.sonar(number))
 }
 
 /// The outline of the robot at `pose`, metres.
@@ -55,4 +93,20 @@ pub fn outline(pose: Pose) -> Polygon {
     let half = WIDTH_M / 2.0;
     let corners = [(-REAR_M, -half), (FRONT_M, -half), (FRONT_M, half), (-REAR_M, half)];
     Polygon::new(corners.map(|(x, y)| pose.to_world(vec2(x, y))).to_vec())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_older_array_is_its_own_mirror_image() {
+        let degrees: Vec<i64> = (0..16)
+            .filter_map(|number| SonarArray::Older.sonar(number))
+            .map(|(_, bearing)| bearing.to_degrees().round() as i64)
+            .collect();
+        assert_eq!(degrees, [90, 50, 30, 10, -10, -30, -50, -90, -90, -130, -150, -170, 170, 150, 130, 90]);
+        assert_eq!(SonarArray::Older.sonar(8).map(|(mount, _)| mount), Some(vec2(-0.115, -0.130)));
+        assert_eq!(SonarArray::Older.sonar(16), None);
+    }
 }

@@ -31,6 +31,20 @@ impl Home {
         Ok(Self { map, scene })
     }
 
+    /// A home of which only the rooms are known: where a real robot drives.
+    pub fn unfurnished(map: RoomMap) -> Self {
+        let (version, name) = (1, "unknown".to_string());
+        let scene = Scene {
+            version,
+            name,
+            map: map.name.clone(),
+            furniture: Vec::new(),
+            objects: Vec::new(),
+            noise: Default::default(),
+        };
+        Self { map, scene }
+    }
+
     /// The scene, to be shared within one trial.
     pub(super) fn shared_scene(&self) -> Rc<Scene> {
         Rc::new(self.scene.clone())

@@ -61,7 +61,7 @@ fn confirm(report: &mut Report, home: &Home, object: Option<&str>, pose: Pose) {
     }
 }
 
-fn rounded(pose: Pose) -> Pose {
+pub(super) fn rounded(pose: Pose) -> Pose {
     let four = |v: f64| crate::record::Rounded(v).value();
     Pose::new(four(pose.x), four(pose.y), four(pose.heading))
 }

@@ -57,32 +57,41 @@ impl Driver {
     }
 }
 
+/// The plan of a record, made for this home.
+pub(super) fn plan_of(record: &Record, home: &Home) -> Result<Plan, StageError> {
+    let plan: Plan = record.require("plan", "pipe the record through `plan` first")?;
+    if plan.map != home.map.name {
+        let (plan, home) = (&plan.map, &home.map.name);
+        let message = format!("`plan`: made for the map `{plan}`, the robot is in `{home}`; give both the same --map");
+        return Err(StageError::new(message));
+    }
+    Ok(plan)
+}
+
+/// A trial for people.
+pub(super) fn text_of(record: &Record) -> Result<String, StageError> {
+    let trial: Trial = record.require("trial", "it is what `drive` adds")?;
+    let mut lines: Vec<String> = record.get::<String>("text")?.into_iter().collect();
+    for action in &trial.actions {
+        let (start, end) = (action.start_s.0, action.end_s.0);
+        lines.push(format!("{start:6.1}–{end:<6.1} {:7} {}", action.action, action.result));
+        lines.extend(action.why.split("; ").filter(|why| !why.is_empty()).map(|why| format!("{:22} {why}", "")));
+    }
+    let outcome = format!("{:?}", trial.outcome).to_lowercase();
+    let (metres, seconds) = (trial.distance_m.0, trial.duration_s.0);
+    lines.push(format!("{outcome}: {} ({metres:.1} m, {seconds:.0} s, {} collisions)", trial.why, trial.collisions));
+    Ok(lines.join("\n"))
+}
+
 impl Stage for Driver {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
-        let plan: Plan = record.require("plan", "pipe the record through `plan` first")?;
-        if plan.map != self.home.map.name {
-            let (plan, home) = (&plan.map, &self.home.map.name);
-            let message =
-                format!("`plan`: made for the map `{plan}`, the robot is in `{home}`; give both the same --map");
-            return Err(StageError::new(message));
-        }
+        let plan = plan_of(record, &self.home)?;
         let id = record.id().unwrap_or_else(|| "record".to_string());
         self.drive(record, &plan, &id)?;
         Ok(Note::Done)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
-        let trial: Trial = record.require("trial", "it is what `drive` adds")?;
-        let mut lines: Vec<String> = record.get::<String>("text")?.into_iter().collect();
-        for action in &trial.actions {
-            let (start, end) = (action.start_s.0, action.end_s.0);
-            lines.push(format!("{start:6.1}–{end:<6.1} {:7} {}", action.action, action.result));
-            lines.extend(action.why.split("; ").filter(|why| !why.is_empty()).map(|why| format!("{:22} {why}", "")));
-        }
-        let outcome = format!("{:?}", trial.outcome).to_lowercase();
-        let (metres, seconds) = (trial.distance_m.0, trial.duration_s.0);
-        lines
-            .push(format!("{outcome}: {} ({metres:.1} m, {seconds:.0} s, {} collisions)", trial.why, trial.collisions));
-        Ok(lines.join("\n"))
+        text_of(record)
     }
 }

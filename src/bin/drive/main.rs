@@ -2,13 +2,16 @@
 
 mod executive;
 mod outputs;
+mod robot;
 
 use std::process::ExitCode;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, FromLog, HomeArguments, Intake, Program};
-use spatial_fetch::record::Trial;
-use spatial_fetch::trial::{Driver, NoiseLevel, Settings};
+use spatial_fetch::cli::{
+    self, Common, Exit, EyeArguments, Failure, FromLog, HomeArguments, Intake, Program, Reporter,
+};
+use spatial_fetch::record::{Stage, Trial};
+use spatial_fetch::trial::{Driver, Home, NoiseLevel, Settings};
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
 ///
@@ -30,6 +33,8 @@ struct Arguments {
     #[command(flatten)]
     executive: executive::Arguments,
     #[command(flatten)]
+    robot: robot::Arguments,
+    #[command(flatten)]
     outputs: outputs::Arguments,
     #[command(flatten)]
     log: FromLog,
@@ -46,10 +51,14 @@ impl Program for Arguments {
         schemars::schema_for!(Trial)
     }
     fn reads_standard_input(&self) -> bool {
-        self.log.from.is_none() && self.common.files.is_empty()
+        !self.robot.serves() && self.log.from.is_none() && self.common.files.is_empty()
     }
     fn run(self) -> Result<Exit, Failure> {
-        let home = self.home.load()?;
+        let home = self.home()?;
+        let reporter = Reporter::new(Self::NAME, &self.common);
+        if self.robot.serves() {
+            return self.robot.run_served(&home, &reporter, self.common.seed);
+        }
         let settings = Settings {
             options: self.executive.options(),
             perception: self.eyes.perception,
@@ -59,13 +68,24 @@ impl Program for Arguments {
         };
         let outputs = self.outputs.outputs(self.common.force);
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
-        cli::run_filter_on(
-            Self::NAME,
-            &self.common,
-            lines.as_mut(),
-            Intake::Records,
-            &Driver { home, settings, outputs },
-        )
+        let (driver, common): (Box<dyn Stage>, Common) = if self.robot.is_real() {
+            // One robot, one plan at a time.
+            let common = Common { jobs: 1, ..self.common };
+            (Box::new(self.robot.driver(home.map, settings, outputs, reporter)?), common)
+        } else {
+            (Box::new(Driver { home, settings, outputs }), self.common)
+        };
+        cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, driver.as_ref())
+    }
+}
+
+impl Arguments {
+    /// What is known of where the robot is: of a real one, the rooms alone.
+    fn home(&self) -> Result<Home, Failure> {
+        if self.robot.is_real() && !self.robot.serves() {
+            return self.home.rooms().map(Home::unfurnished);
+        }
+        self.home.load()
     }
 }
 

@@ -44,6 +44,11 @@ impl Obstacles {
         Self { walls: map.walls(), things: things.map(Thing::new).collect() }
     }
 
+    /// No obstacles at all.
+    pub fn nothing() -> Self {
+        Self { walls: Vec::new(), things: Vec::new() }
+    }
+
     /// Metres from `outline` to the nearest obstacle, as far as `reach`; zero when it touches one.
     pub fn clearance(&self, outline: &Polygon, centre: Vec2, reach: f64) -> f64 {
         let radius = p3dx::SWING_M;

@@ -1,0 +1,150 @@
+//! Which robot is driven, how carefully, and through which camera; or served to others.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::{Args, ValueEnum};
+use spatial_fetch::cli::{Exit, Failure, Reporter, on_interrupt};
+use spatial_fetch::perception::Eyes;
+use spatial_fetch::robot::arcos::client::{ArcosBase, Settings};
+use spatial_fetch::robot::arcos::line::{Address, DryLine, Line};
+use spatial_fetch::robot::arcos::parameters::Parameters;
+use spatial_fetch::robot::arcos::server::{ServeAddress, ServerSettings};
+use spatial_fetch::robot::p3dx::SonarArray;
+use spatial_fetch::trial::{Home, NoEyes, Outputs, RealDriver, Served, StreamEyes};
+
+/// The models whose scales are known.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Model {
+    /// ARCOS on the SH2 processor
+    P3dxSh,
+    /// The older H8 processor
+    P3dx,
+}
+
+#[derive(Args)]
+#[command(next_help_heading = "Robot")]
+pub struct Arguments {
+    /// sim, serial:/dev/ttyUSB0[@38400] or tcp:HOST:8101
+    #[arg(long, value_name = "ADDRESS", default_value = "sim")]
+    robot: Address,
+    /// Frames of the real robot's camera, an MCAP file, FIFO or `-`; none drives by odometry and sonar alone
+    #[arg(long, value_name = "FILE", default_value = "none")]
+    camera: PathBuf,
+    /// Fastest, m/s
+    #[arg(long, value_name = "M/S", default_value_t = 0.3, value_parser = speed)]
+    max_speed: f64,
+    /// Speeding up and slowing down, m/s²
+    #[arg(long, value_name = "M/S2", default_value_t = 0.3, value_parser = speed)]
+    max_acceleration: f64,
+    /// Milliseconds after which the robot stops unless told again to go on
+    #[arg(long, value_name = "MS", default_value_t = 300, value_parser = clap::value_parser!(u64).range(50..=2000))]
+    deadline: u64,
+    /// Go on by itself after the STOP button is released, or a stall is over
+    #[arg(long)]
+    resume: bool,
+    /// Connect again when the link is lost, for up to this many seconds
+    #[arg(long, value_name = "SECONDS", num_args = 0..=1, default_missing_value = "60")]
+    reconnect: Option<u64>,
+    /// Treat the robot as this model, whatever it calls itself
+    #[arg(long, value_enum)]
+    robot_model: Option<Model>,
+    /// Where its sonars sit
+    #[arg(long, value_enum, default_value = "newer")]
+    sonars: SonarArray,
+    /// Print the commands the robot would get; touches no line
+    #[arg(long)]
+    dry_run: bool,
+    /// Serve the simulated robot at tcp:127.0.0.1:8101 or pty:PATH[@BAUD], to this or any ARCOS program
+    #[arg(long, value_name = "ADDRESS", help_heading = "Serving the simulated robot")]
+    serve: Option<ServeAddress>,
+    /// Stream what its Kinect sees, MCAP, into this file or FIFO
+    #[arg(long, value_name = "FILE", requires = "serve", help_heading = "Serving the simulated robot")]
+    camera_out: Option<PathBuf>,
+    /// Write where it truly is, JSON lines
+    #[arg(long, value_name = "FILE", requires = "serve", help_heading = "Serving the simulated robot")]
+    truth_out: Option<PathBuf>,
+    /// Milliseconds without a command after which it stops by itself
+    #[arg(long, value_name = "MS", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(100..=65535), requires = "serve", help_heading = "Serving the simulated robot")]
+    watchdog: u64,
+}
+
+fn speed(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_string())?;
+    if (0.01..=1.5).contains(&value) { Ok(value) } else { Err("must be from 0.01 to 1.5".to_string()) }
+}
+
+impl Arguments {
+    pub fn serves(&self) -> bool {
+        self.serve.is_some()
+    }
+
+    pub fn is_real(&self) -> bool {
+        self.robot != Address::Sim || self.dry_run
+    }
+
+    fn settings(&self) -> Settings {
+        Settings {
+            speed: self.max_speed,
+            acceleration: self.max_acceleration,
+            braking: self.max_acceleration.max(Settings::default().braking),
+            deadline: Duration::from_millis(self.deadline),
+            resume: self.resume,
+            reconnect: self.reconnect.map(Duration::from_secs),
+            model: self.robot_model.map(|model| match model {
+                Model::P3dxSh => Parameters::P3DX_SH,
+                Model::P3dx => Parameters::P3DX,
+            }),
+            sonars: self.sonars,
+            ..Settings::default()
+        }
+    }
+
+    /// Serves until interrupted.
+    pub fn run_served(self, home: &Home, reporter: &Reporter, seed: u64) -> Result<Exit, Failure> {
+        let Some(address) = self.serve else { return Ok(Exit::Done) };
+        let settings = ServerSettings { watchdog: Duration::from_millis(self.watchdog), ..ServerSettings::default() };
+        let served = Served { address, settings, camera: self.camera_out, truth: self.truth_out, seed };
+        let stop = spatial_fetch::trial::served_until_interrupted();
+        let closing = stop.clone();
+        on_interrupt(move || closing.stop());
+        let run = served.run(home, || stop.goes_on(), |text| reporter.remark(text));
+        stop.ended();
+        run.map(|()| Exit::Done).map_err(|error| Failure::Failed(format!("--serve: {error}")))
+    }
+
+    /// Connects to the robot.
+    pub fn driver(
+        self,
+        map: spatial_fetch::world::RoomMap,
+        settings: spatial_fetch::trial::Settings,
+        outputs: Outputs,
+        reporter: Reporter,
+    ) -> Result<RealDriver, Failure> {
+        let start = map.start;
+        let base = ArcosBase::connect(self.line()?, self.settings(), start)
+            .map_err(|error| Failure::Failed(error.to_string()))?;
+        let eyes: Box<dyn Eyes + Send> = if self.camera.as_os_str() == "none" {
+            Box::new(NoEyes)
+        } else {
+            let eyes = StreamEyes::open(&self.camera, map.clone(), base.stopper());
+            Box::new(eyes.map_err(|error| Failure::Failed(format!("--camera: {error}")))?)
+        };
+        let tell = Box::new(move |text: &str| reporter.remark(text));
+        let driver = RealDriver::new(Home::unfurnished(map), settings, outputs, base, eyes, tell);
+        let interrupter = driver.interrupter();
+        on_interrupt(move || interrupter.stop());
+        Ok(driver)
+    }
+
+    fn line(&self) -> Result<Box<dyn Line + Send>, Failure> {
+        if self.dry_run {
+            return Ok(Box::new(DryLine::default()));
+        }
+        match self.robot.open() {
+            Ok(Some(line)) => Ok(line),
+            Ok(None) => Err(Failure::Usage("the simulated robot has no line".to_string())),
+            Err(error) => Err(Failure::Failed(format!("{}: {error}", self.robot))),
+        }
+    }
+}

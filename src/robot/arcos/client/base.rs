@@ -1,0 +1,217 @@
+//! A client on a thread of its own: the robot stops in time whatever the program does.
+
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use super::{Client, ConnectError, Event, Report, Settings};
+use crate::geometry::{Pose, wrap_angle};
+use crate::robot::arcos::line::Line;
+use crate::robot::{MobileBase, RobotError, SonarReading, Status};
+
+/// One turn of the thread waits no longer than this for bytes.
+const TURN: Duration = Duration::from_millis(10);
+/// The thread ends within this once it is told to.
+const ENDS_WITHIN: Duration = Duration::from_secs(3);
+
+/// What program and thread share.
+#[derive(Default)]
+struct State {
+    start: Pose,
+    ask: Option<(f64, f64)>,
+    report: Report,
+    events: Vec<Event>,
+    failed: Option<String>,
+    quit: bool,
+    ended: bool,
+}
+
+#[derive(Default)]
+struct Shared {
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A real robot as a mobile base, in the frame of the room map.
+pub struct ArcosBase {
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<()>>,
+    /// What of the shared state the program sees until it drives on.
+    report: Report,
+    resume: bool,
+    preflight: String,
+    /// The pose, in the map, at which the robot was first heard.
+    start: Pose,
+    /// When the trial began, and the metres driven before it.
+    began: (Duration, f64),
+}
+
+/// Stops the robot from anywhere, such as a signal handler's thread, and knows how it is.
+#[derive(Clone)]
+pub struct Stopper(Arc<Shared>);
+
+impl Stopper {
+    /// Whether someone has told it to stop for good.
+    pub fn is_stopping(&self) -> bool {
+        self.0.lock().quit
+    }
+
+    /// Whether the robot moves, or is told to.
+    pub fn is_moving(&self) -> bool {
+        let state = self.0.lock();
+        let (linear, angular) = state.report.velocity;
+        linear.abs() > 0.005 || angular.abs() > 0.01
+    }
+
+    /// Where its odometry believes it is, in the frame of the map.
+    pub fn pose(&self) -> Pose {
+        let state = self.0.lock();
+        in_map(state.start, state.report.pose)
+    }
+
+    /// What happened since this was last asked.
+    pub fn take_events(&self) -> Vec<Event> {
+        std::mem::take(&mut self.0.lock().events)
+    }
+
+    /// Stops the robot, switches its motors off, closes the line, and waits until that is done.
+    pub fn stop(&self) {
+        let mut state = self.0.lock();
+        state.quit = true;
+        let until = Instant::now() + ENDS_WITHIN;
+        while !state.ended && Instant::now() < until {
+            let waited = self.0.changed.wait_timeout(state, Duration::from_millis(50));
+            state = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+}
+
+impl ArcosBase {
+    /// Connects to the robot on `line`, which stands at `start` in the map.
+    pub fn connect(line: Box<dyn Line + Send>, settings: Settings, start: Pose) -> Result<Self, ConnectError> {
+        let resume = settings.resume;
+        let client = Client::connect(line, settings)?;
+        let preflight = client.preflight();
+        let report = client.report().clone();
+        let shared = Arc::new(Shared::default());
+        *shared.lock() = State { start, report: report.clone(), ..State::default() };
+        let theirs = Arc::clone(&shared);
+        let thread = std::thread::Builder::new().name("robot".to_string()).spawn(move || run(client, &theirs));
+        let thread = thread.map_err(|error| ConnectError::Line("the robot's thread".to_string(), error))?;
+        Ok(Self { shared, thread: Some(thread), report, resume, preflight, start, began: (Duration::ZERO, 0.0) })
+    }
+
+    /// Everything to know before driving off, in one line.
+    pub fn preflight(&self) -> &str {
+        &self.preflight
+    }
+
+    /// A handle that stops the robot.
+    pub fn stopper(&self) -> Stopper {
+        Stopper(Arc::clone(&self.shared))
+    }
+
+    /// Time and distance begin anew.
+    pub fn begin_trial(&mut self) {
+        self.report = self.shared.lock().report.clone();
+        self.began = (self.report.at, self.report.distance_m);
+    }
+
+    /// Metres driven in this trial.
+    pub fn trial_distance_m(&self) -> f64 {
+        self.report.distance_m - self.began.1
+    }
+
+    /// The robot's last report.
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+}
+
+/// A pose relative to `start`, in the frame of the map.
+fn in_map(start: Pose, own: Pose) -> Pose {
+    let at = start.to_world(own.position());
+    Pose::new(at.x, at.y, wrap_angle(start.heading + own.heading))
+}
+
+fn run<L: Line>(mut client: Client<L>, shared: &Shared) {
+    loop {
+        let quit = {
+            let mut state = shared.lock();
+            if let Some((linear, angular)) = state.ask.take() {
+                client.ask(linear, angular);
+            }
+            state.quit
+        };
+        if quit {
+            client.close();
+        }
+        let turned = if quit { Ok(()) } else { client.turn(TURN) };
+        let mut state = shared.lock();
+        state.report = client.report().clone();
+        state.events.extend(client.take_events());
+        state.ended = quit || turned.is_err();
+        state.failed = turned.err().map(|error| match error {
+            RobotError::Link(why) | RobotError::Held(why) => why,
+        });
+        shared.changed.notify_all();
+        if state.ended {
+            return;
+        }
+    }
+}
+
+impl Drop for ArcosBase {
+    fn drop(&mut self) {
+        self.stopper().stop();
+        // A thread that hangs in a dead line is left behind; the robot's own watchdog has stopped it.
+        if self.shared.lock().ended
+            && let Some(thread) = self.thread.take()
+        {
+            let _ = thread.join();
+        }
+    }
+}
+
+impl MobileBase for ArcosBase {
+    fn pose(&self) -> Pose {
+        in_map(self.start, self.report.pose)
+    }
+
+    fn velocity(&self) -> (f64, f64) {
+        self.report.velocity
+    }
+
+    fn time_s(&self) -> f64 {
+        self.report.at.saturating_sub(self.began.0).as_secs_f64()
+    }
+
+    fn drive(&mut self, linear: f64, angular: f64, seconds: f64) -> Result<(), RobotError> {
+        self.shared.lock().ask = Some((linear, angular));
+        std::thread::sleep(Duration::from_secs_f64(seconds.clamp(0.0, 3600.0)));
+        let state = self.shared.lock();
+        self.report = state.report.clone();
+        if let Some(why) = &state.failed {
+            return Err(RobotError::Link(why.clone()));
+        }
+        match &self.report.held {
+            Some(why) if !self.resume => Err(RobotError::Held(why.clone())),
+            _ if state.quit => Err(RobotError::Held("told to stop".to_string())),
+            _ => Ok(()),
+        }
+    }
+
+    fn sonar(&self) -> &[SonarReading] {
+        &self.report.sonar
+    }
+
+    fn status(&self) -> Status {
+        self.report.status
+    }
+}

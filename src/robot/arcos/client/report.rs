@@ -1,0 +1,46 @@
+//! What the client knows of its robot.
+
+use std::time::Duration;
+
+use crate::geometry::Pose;
+use crate::robot::{SonarReading, Status};
+
+/// Something worth telling, with its time on the line's clock.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// When.
+    pub at: Duration,
+    /// What, for people.
+    pub text: String,
+}
+
+/// The latest state of the robot.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// By odometry, from where the robot was first heard.
+    pub pose: Pose,
+    /// Metres driven.
+    pub distance_m: f64,
+    /// m/s and rad/s, as measured.
+    pub velocity: (f64, f64),
+    /// The last reading of each sonar.
+    pub sonar: Vec<SonarReading>,
+    /// Stalls and bumpers.
+    pub status: Status,
+    /// Front bumpers pressed, a bit each.
+    pub front_bumpers: u8,
+    /// Rear bumpers pressed, a bit each.
+    pub rear_bumpers: u8,
+    /// Volts.
+    pub battery_v: f64,
+    /// The motors are enabled.
+    pub motors: bool,
+    /// The STOP button is pressed, or its stall engaged.
+    pub emergency_stop: bool,
+    /// Why the robot is being held, when it is.
+    pub held: Option<String>,
+    /// Time on the line's clock.
+    pub at: Duration,
+    /// Information packets so far.
+    pub sips: u64,
+}

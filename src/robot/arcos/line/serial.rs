@@ -1,0 +1,170 @@
+//! A serial line, opened for us alone.
+
+use std::io::{self, Read, Write};
+use std::os::unix::fs::MetadataExt;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use serialport::{ErrorKind, SerialPort, TTYPort};
+
+use super::Line;
+
+/// The rates of the robot, in the order in which they are tried.
+pub const BAUD_RATES: [u32; 5] = [9600, 38400, 19200, 115_200, 57600];
+/// A write that takes longer has failed.
+const WRITE_WITHIN: Duration = Duration::from_millis(500);
+
+/// A serial line.
+pub struct SerialLine {
+    device: PathBuf,
+    /// The rate the user insists on.
+    fixed: Option<u32>,
+    baud: u32,
+    port: Option<TTYPort>,
+    opened: Instant,
+}
+
+impl SerialLine {
+    /// Opens a device, 8N1, raw, without flow control, refusing to share it.
+    pub fn open(device: &Path, baud: Option<u32>) -> io::Result<Self> {
+        let baud_now = baud.unwrap_or(BAUD_RATES[0]);
+        let port = open_port(device, baud_now)?;
+        Ok(Self { device: device.to_path_buf(), fixed: baud, baud: baud_now, port: Some(port), opened: Instant::now() })
+    }
+
+    fn port(&mut self) -> io::Result<&mut TTYPort> {
+        let gone = || io::Error::new(io::ErrorKind::NotConnected, "the line is not open");
+        self.port.as_mut().ok_or_else(gone)
+    }
+}
+
+fn open_port(device: &Path, baud: u32) -> io::Result<TTYPort> {
+    // What the library says of a device it cannot open depends on its version: ask the system first.
+    std::fs::OpenOptions::new().read(true).write(true).open_nonblocking(device).map_err(|e| explain(device, e))?;
+    let name = device.to_string_lossy();
+    serialport::new(name, baud).timeout(WRITE_WITHIN).open_native().map_err(|error| match error.kind() {
+        ErrorKind::Io(kind) => explain(device, io::Error::new(kind, error.description)),
+        ErrorKind::NoDevice => busy(device, &error.description),
+        _ => io::Error::other(error.description),
+    })
+}
+
+trait OpenNonblocking {
+    fn open_nonblocking(&mut self, device: &Path) -> io::Result<std::fs::File>;
+}
+
+impl OpenNonblocking for std::fs::OpenOptions {
+    /// Without waiting for a carrier.
+    fn open_nonblocking(&mut self, device: &Path) -> io::Result<std::fs::File> {
+        use std::os::unix::fs::OpenOptionsExt;
+        self.custom_flags((rustix::fs::OFlags::NONBLOCK | rustix::fs::OFlags::NOCTTY).bits() as i32).open(device)
+    }
+}
+
+/// What is wrong with a device, and what mends it.
+fn explain(device: &Path, error: io::Error) -> io::Error {
+    let text = match error.kind() {
+        io::ErrorKind::PermissionDenied => {
+            let group = std::fs::metadata(device).ok().and_then(|meta| group_name(meta.gid()));
+            let group = group.unwrap_or_else(|| "dialout".to_string());
+            format!("no permission; its group is `{group}`: run `sudo usermod -aG {group} $USER` and log in again")
+        }
+        io::ErrorKind::NotFound => {
+            let present = serial_devices();
+            let present = if present.is_empty() { "no serial device is there".to_string() } else { present.join(" ") };
+            format!("no such device; is the adapter plugged in? ({present})")
+        }
+        io::ErrorKind::ResourceBusy => return busy(device, "busy"),
+        _ => error.to_string(),
+    };
+    io::Error::new(error.kind(), text)
+}
+
+fn busy(device: &Path, what: &str) -> io::Error {
+    let text = match holder(device) {
+        Some((process, name)) => format!("the line is held by {name} (process {process}); end it first"),
+        None if device.exists() => {
+            format!("{what}: another program may hold the line, see `fuser {}`", device.display())
+        }
+        None => return explain(device, io::ErrorKind::NotFound.into()),
+    };
+    io::Error::new(io::ErrorKind::ResourceBusy, text)
+}
+
+/// Another process that has the device open, and its name, by what /proc shows of it.
+fn holder(device: &Path) -> Option<(u32, String)> {
+    let device = std::fs::canonicalize(device).ok()?;
+    let processes = std::fs::read_dir("/proc").ok()?.filter_map(Result::ok);
+    let mut ids = processes.filter_map(|entry| entry.file_name().to_str()?.parse::<u32>().ok());
+    let id = ids.find(|id| *id != std::process::id() && holds(*id, &device))?;
+    let name = std::fs::read_to_string(format!("/proc/{id}/comm")).unwrap_or_default();
+    Some((id, name.trim().to_string()))
+}
+
+fn holds(process: u32, device: &Path) -> bool {
+    let open = std::fs::read_dir(format!("/proc/{process}/fd")).into_iter().flatten().filter_map(Result::ok);
+    open.filter_map(|entry| std::fs::read_link(entry.path()).ok()).any(|target| target == device)
+}
+
+fn group_name(id: u32) -> Option<String> {
+    let groups = std::fs::read_to_string("/etc/group").ok()?;
+    let fields = groups.lines().map(|line| line.split(':').collect::<Vec<_>>());
+    fields.filter(|f| f.len() > 2).find(|f| f[2].parse() == Ok(id)).map(|f| f[0].to_string())
+}
+
+fn serial_devices() -> Vec<String> {
+    let entries = std::fs::read_dir("/dev").into_iter().flatten().filter_map(Result::ok);
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let serial = |name: &String| ["ttyUSB", "ttyACM"].iter().any(|kind| name.starts_with(kind));
+    let mut found: Vec<String> = names.filter(serial).map(|name| format!("/dev/{name}")).collect();
+    found.sort();
+    found
+}
+
+impl Line for SerialLine {
+    fn read(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize> {
+        let device = self.device.clone();
+        let port = self.port()?;
+        port.set_timeout(wait.max(Duration::from_millis(1)))?;
+        match port.read(buffer) {
+            Ok(0) => Err(io::Error::new(io::ErrorKind::BrokenPipe, "the adapter is gone")),
+            Ok(count) => Ok(count),
+            Err(error) if matches!(error.kind(), io::ErrorKind::TimedOut | io::ErrorKind::Interrupted) => Ok(0),
+            Err(error) if !device.exists() => Err(io::Error::new(error.kind(), "the adapter was unplugged")),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let port = self.port()?;
+        port.set_timeout(WRITE_WITHIN)?;
+        port.write_all(bytes)
+    }
+
+    fn reopen(&mut self) -> io::Result<()> {
+        self.port = None;
+        self.port = Some(open_port(&self.device, self.baud)?);
+        Ok(())
+    }
+
+    fn now(&self) -> Duration {
+        self.opened.elapsed()
+    }
+
+    fn baud(&self) -> Option<u32> {
+        Some(self.baud)
+    }
+
+    fn set_baud(&mut self, baud: u32) -> io::Result<()> {
+        self.baud = baud;
+        self.port()?.set_baud_rate(baud).map_err(io::Error::from)
+    }
+
+    fn baud_is_fixed(&self) -> bool {
+        self.fixed.is_some()
+    }
+
+    fn name(&self) -> String {
+        format!("serial:{}", self.device.display())
+    }
+}

@@ -1,0 +1,236 @@
+//! Plans run on a real robot: the same executive, the robot's own sensors, and no truth to judge by.
+
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::outputs::{Outputs, file_name};
+use super::recorder::Recorder;
+use super::run::rounded;
+use super::{Home, Run, Settings};
+use crate::behavior::{Executive, Furniture, Silent, Watcher};
+use crate::files::{FileError, write_file};
+use crate::frame::RgbdFrame;
+use crate::geometry::{ClearanceGrid, Pose};
+use crate::perception::Eyes;
+use crate::record::{Note, PathPoint, Plan, Record, Stage, StageError, Trial};
+use crate::robot::MobileBase;
+use crate::robot::arcos::client::{ArcosBase, Stopper};
+
+/// A trial that is told to stop has its log written within this.
+const WRITTEN_WITHIN: Duration = Duration::from_secs(3);
+
+/// Runs the plan of each record on a robot, one after another.
+pub struct RealDriver {
+    /// The room map; nothing is known of the furniture.
+    home: Home,
+    settings: Settings,
+    outputs: Outputs,
+    robot: Mutex<Robot>,
+    stopper: Stopper,
+    busy: Arc<Busy>,
+    /// Where remarks go.
+    tell: Box<dyn Fn(&str) + Send + Sync>,
+}
+
+/// The robot with its eyes.
+struct Robot {
+    base: ArcosBase,
+    eyes: Box<dyn Eyes + Send>,
+}
+
+/// Whether a trial is under way.
+#[derive(Default)]
+struct Busy(Mutex<bool>, Condvar);
+
+impl Busy {
+    fn set(&self, busy: bool) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = busy;
+        self.1.notify_all();
+    }
+
+    fn wait(&self) {
+        let until = Instant::now() + WRITTEN_WITHIN;
+        let mut busy = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        while *busy && Instant::now() < until {
+            busy = self.1.wait_timeout(busy, Duration::from_millis(50)).unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+}
+
+/// Stops a real robot from a signal handler's thread, and waits until the trial's log is whole.
+pub struct Interrupter {
+    stopper: Stopper,
+    busy: Arc<Busy>,
+}
+
+impl Interrupter {
+    /// Stops the robot at once; returns when motors are off and the log is written.
+    pub fn stop(&self) {
+        self.stopper.stop();
+        self.busy.wait();
+    }
+}
+
+impl RealDriver {
+    /// Plans will be run on `base`, seeing through `eyes`; `tell` hears what happens to the robot.
+    pub fn new(
+        home: Home,
+        settings: Settings,
+        outputs: Outputs,
+        base: ArcosBase,
+        eyes: Box<dyn Eyes + Send>,
+        tell: Box<dyn Fn(&str) + Send + Sync>,
+    ) -> Self {
+        tell(base.preflight());
+        let stopper = base.stopper();
+        Self { home, settings, outputs, robot: Mutex::new(Robot { base, eyes }), stopper, busy: Arc::default(), tell }
+    }
+
+    /// What a signal handler needs.
+    pub fn interrupter(&self) -> Interrupter {
+        Interrupter { stopper: self.stopper.clone(), busy: Arc::clone(&self.busy) }
+    }
+
+    fn robot(&self) -> MutexGuard<'_, Robot> {
+        self.robot.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
+        let failed = |error: String| StageError::new(error);
+        let mut robot = self.robot();
+        let Robot { base, eyes } = &mut *robot;
+        base.begin_trial();
+        let recorder = match &self.outputs.record {
+            Some(path) => {
+                let path = Outputs::named(path, id);
+                let made = Recorder::new(&path, self.outputs.force, &self.home, &self.settings, record);
+                Some(made.map_err(|error| failed(error.to_string()))?)
+            }
+            None => None,
+        };
+        let mut log = Log { recorder, silent: Silent, stopper: self.stopper.clone(), tell: &self.tell };
+        let mut run = run(&self.home, plan, &self.settings, base, eyes.as_mut(), &mut log);
+        log.drain(base.time_s());
+        let picture = eyes.frame().map(RgbdFrame::color_png);
+        self.leave(&mut run, record, id, picture.as_deref())?;
+        record.set("trial", &run.trial);
+        let Some(recorder) = log.recorder else { return Ok(()) };
+        let line = serde_json::to_string(record).map_err(|error| failed(error.to_string()))?;
+        recorder.finish(&run, picture.unwrap_or_default(), &line).map_err(|error| failed(error.to_string()))
+    }
+
+    /// Writes the plot and the picture.
+    fn leave(&self, run: &mut Run, record: &Record, id: &str, picture: Option<&[u8]>) -> Result<(), StageError> {
+        let failed = |error: FileError| StageError::new(error.to_string());
+        if let Some(path) = &self.outputs.plot {
+            let title: String = record.get("text")?.unwrap_or_default();
+            let svg = Outputs::draw_plot(&self.home, run, &title);
+            write_file(&Outputs::named(path, id), svg.as_bytes(), self.outputs.force).map_err(failed)?;
+        }
+        if let (Some(folder), Some(png)) = (&self.outputs.picture, picture) {
+            let name = format!("{}.png", file_name(id));
+            std::fs::create_dir_all(folder).map_err(|e| StageError::new(format!("{}: {e}", folder.display())))?;
+            write_file(&folder.join(&name), png, self.outputs.force).map_err(failed)?;
+            run.trial.picture = Some(name);
+        }
+        Ok(())
+    }
+}
+
+/// Runs `plan` on a robot whose truth nobody knows.
+fn run(
+    home: &Home,
+    plan: &Plan,
+    settings: &Settings,
+    base: &mut ArcosBase,
+    eyes: &mut dyn Eyes,
+    watcher: &mut dyn Watcher,
+) -> Run {
+    let report = Executive::new(&home.map, base, eyes, watcher, settings.options).run(plan);
+    let (pose, duration_s) = (report.pose, base.time_s());
+    let mut path = report.journal.path;
+    path.push(PathPoint::new(duration_s, pose));
+    let trial = Trial {
+        outcome: report.outcome,
+        why: report.why,
+        final_pose: rounded(pose),
+        target_id: None,
+        approached: Vec::new(),
+        right_first: None,
+        picture: None,
+        duration_s: duration_s.into(),
+        distance_m: base.trial_distance_m().into(),
+        spl: None,
+        collisions: 0,
+        min_clearance_m: None,
+        actions: report.journal.actions,
+        path,
+    };
+    Run { trial, final_pose: pose, found_at: report.found_at }
+}
+
+/// Passes on what the executive tells, adds what happens to the robot, and hears of a stop.
+struct Log<'a> {
+    recorder: Option<Recorder>,
+    silent: Silent,
+    stopper: Stopper,
+    tell: &'a (dyn Fn(&str) + Send + Sync),
+}
+
+impl Log<'_> {
+    fn inner(&mut self) -> &mut dyn Watcher {
+        match &mut self.recorder {
+            Some(recorder) => recorder,
+            None => &mut self.silent,
+        }
+    }
+
+    fn drain(&mut self, time_s: f64) {
+        for event in self.stopper.take_events() {
+            (self.tell)(&event.text);
+            self.inner().said(time_s, &format!("robot: {}", event.text));
+        }
+    }
+}
+
+impl Watcher for Log<'_> {
+    fn sensed(&mut self, base: &dyn MobileBase) {
+        self.drain(base.time_s());
+        self.inner().sensed(base);
+    }
+
+    fn frame(&mut self, time_s: f64, believed: Pose, frame: &RgbdFrame) {
+        self.inner().frame(time_s, believed, frame);
+    }
+
+    fn grid(&mut self, time_s: f64, grid: &ClearanceGrid) {
+        self.inner().grid(time_s, grid);
+    }
+
+    fn said(&mut self, time_s: f64, text: &str) {
+        self.inner().said(time_s, text);
+    }
+
+    fn furniture(&mut self, time_s: f64, furniture: &[Furniture]) {
+        self.inner().furniture(time_s, furniture);
+    }
+
+    fn wants_stop(&self) -> bool {
+        self.stopper.is_stopping()
+    }
+}
+
+impl Stage for RealDriver {
+    fn run(&self, record: &mut Record) -> Result<Note, StageError> {
+        let plan = super::stage::plan_of(record, &self.home)?;
+        let id = record.id().unwrap_or_else(|| "record".to_string());
+        self.busy.set(true);
+        let driven = self.drive(record, &plan, &id);
+        self.busy.set(false);
+        driven.map(|()| Note::Done)
+    }
+
+    fn text(&self, record: &Record) -> Result<String, StageError> {
+        super::stage::text_of(record)
+    }
+}
