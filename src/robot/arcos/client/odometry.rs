@@ -6,6 +6,8 @@ use crate::geometry::{Pose, vec2, wrap_angle};
 use crate::robot::arcos::codec::Sip;
 use crate::robot::arcos::parameters::Parameters;
 
+/// No two packets are made closer together.
+const CYCLE: Duration = Duration::from_millis(100);
 /// Packets may be so much older than they seem: they wait in buffers.
 const JITTER: Duration = Duration::from_millis(300);
 /// A step longer than the speeds explain by this, metres, and this factor, is no step.
@@ -76,7 +78,8 @@ impl Odometry {
         };
         let unit = self.parameters.distance_m;
         let step = vec2(f64::from(delta15(sip.x, last.x)) * unit, f64::from(delta15(sip.y, last.y)) * unit);
-        let passed = now.saturating_sub(last.at);
+        // Packets that waited in a buffer come all at once, but were made a cycle apart.
+        let passed = now.saturating_sub(last.at).max(CYCLE);
         let fastest = last.speed.abs().max(speed.abs());
         let could = |fastest: f64, time: Duration| fastest * time.as_secs_f64() * TOLERANCE;
         let at_zero = (sip.x, sip.y, sip.heading) == (0, 0, 0);
@@ -114,8 +117,6 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-
-    const CYCLE: Duration = Duration::from_millis(100);
 
     fn sip(x: i32, y: i32, heading: i32) -> Sip {
         let heading = (heading + 2048).rem_euclid(4096) - 2048;
