@@ -3,7 +3,7 @@
 //! The fuzz targets in `fuzz/` look further; these few hundred cases need no nightly toolchain.
 
 use proptest::prelude::*;
-use spatial_fetch::evaluation::{add_meanings, parse_tree, read_gold, score};
+use spatial_fetch::evaluation::{parse_tree, read_gold, score, with_texts};
 use spatial_fetch::record::Record;
 use spatial_fetch::world::{RoomMap, Scene};
 
@@ -49,7 +49,7 @@ proptest! {
     #[test]
     fn corpora(text in mangled(first_templates())) {
         let gold = read_gold(&text, "gold").unwrap_or_default();
-        let _ = add_meanings(gold.clone(), &text, "meanings");
+        let _ = with_texts(gold.clone(), gold.clone());
         let _ = score(&gold, &text.lines().map(str::to_string).collect::<Vec<_>>());
         let _ = parse_tree(&text);
     }

@@ -112,7 +112,7 @@ fn a_trial_that_was_killed_leaves_everything_but_the_last_second() {
     run("drive", &["--record", whole.to_str().expect("UTF-8"), plan.to_str().expect("UTF-8")], "").expect_code(0);
     let all = odometry_times(&whole);
     // The log grows while the trial goes on: it is killed once so many bytes of it are there.
-    for bytes in [4_000, 40_000] {
+    for bytes in [20_000, 50_000, 100_000] {
         let mut drive = Command::new(executable("drive"))
             .args(["--force", "--record"])
             .args([&log, &plan])
@@ -128,7 +128,7 @@ fn a_trial_that_was_killed_leaves_everything_but_the_last_second() {
         drive.wait().expect("ends");
         let times = odometry_times(&log);
         // No gap: what is there is the beginning of the whole, whatever the moment.
-        assert_eq!(times, all[..times.len()], "killed at {bytes} bytes");
+        assert!(!times.is_empty() && times == all[..times.len()], "killed at {bytes} bytes");
         let _ = std::fs::remove_file(&log);
     }
 }

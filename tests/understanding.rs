@@ -69,6 +69,85 @@ fn what_is_ruled_out_is_not_the_target() {
 }
 
 #[test]
+fn the_one_by_a_landmark_can_be_ruled_out_too() {
+    let meaning = ground("the keys are in the room on the left on the dresser by the window not the one by the door");
+    assert_eq!(pairs(&meaning), [pair("window", "side")]);
+    assert!(meaning.warnings.iter().any(|warning| warning.contains("negation")), "{:?}", meaning.warnings);
+}
+
+#[test]
+fn furniture_that_stands_on_furniture_is_what_is_asked_for() {
+    let meaning = ground("the lamp is in the kitchen on the counter by the sink");
+    assert_eq!((object(&meaning), target(&meaning)), (Some("lamp"), Some("counter")));
+    let meaning = ground("the dresser is next to the bed in the room on the left and the scarf is on the dresser");
+    assert_eq!((object(&meaning), target(&meaning)), (Some("scarf"), Some("dresser")));
+}
+
+#[test]
+fn a_place_that_brings_in_furniture_is_no_move() {
+    let meaning = ground("take a right into the room and to your left is a shelf and the jar is on the shelf");
+    assert_eq!((target(&meaning), pairs(&meaning)), (Some("shelf"), vec![pair("robot", "left")]));
+}
+
+#[test]
+fn a_turn_whose_verb_is_not_said_again_is_a_turn() {
+    let meaning = ground("hang a right then a left and the broom is on the rack");
+    assert_eq!((side(&meaning), pairs(&meaning)), (Some(Direction::Right), vec![pair("move", "left")]));
+}
+
+#[test]
+fn a_landmark_at_the_door_is_kept_when_the_room_is_said_last() {
+    let meaning = ground("the ring is on the small shelf near the door in the room to the right");
+    assert_eq!((side(&meaning), pairs(&meaning)), (Some(Direction::Right), vec![pair("door", "side")]));
+}
+
+#[test]
+fn a_thing_without_a_name_is_no_object() {
+    assert_eq!(object(&ground("the squishy thing is under the sofa in the room on the left")), None);
+}
+
+#[test]
+fn there_and_it_mean_the_furniture_said_before() {
+    for text in [
+        "turn left and there is a desk and the keys are there",
+        "turn left and find the desk the keys are on it",
+        "turn left and you will see a desk and the keys are on that desk",
+    ] {
+        let meaning = ground(text);
+        assert_eq!((object(&meaning), target(&meaning)), (Some("keys"), Some("desk")), "{text}");
+        assert_eq!(meaning.nodes.len(), 1, "{text}");
+    }
+}
+
+#[test]
+fn behind_it_is_behind_the_furniture_named_last() {
+    let meaning = ground("turn right and you will see a couch and behind it there is a desk the keys are there");
+    assert_eq!((target(&meaning), object(&meaning)), (Some("desk"), Some("keys")));
+    assert_eq!(pairs(&meaning), [pair("couch", "back")]);
+}
+
+#[test]
+fn a_side_alone_corrects_a_turn() {
+    assert_eq!(side(&ground("go ahead take a right no no left into the room")), Some(Direction::Left));
+}
+
+#[test]
+fn a_left_hand_room_is_the_room_on_the_left() {
+    assert_eq!(side(&ground("the scarf is on the bench in the left hand room")), Some(Direction::Left));
+}
+
+#[test]
+fn other_readings_differ_from_the_best_and_from_one_another() {
+    let meaning = ground("the mug is on the table behind the couch");
+    let mut all = vec![(meaning.room.clone(), meaning.object.clone(), meaning.nodes.clone())];
+    all.extend(meaning.readings.iter().map(|r| (r.room.clone(), r.object.clone(), r.nodes.clone())));
+    assert!(all.len() > 1 && meaning.readings.iter().all(|reading| reading.score <= meaning.score));
+    for (i, reading) in all.iter().enumerate() {
+        assert!(!all[..i].contains(reading), "{reading:?} stands twice");
+    }
+}
+
+#[test]
 fn other_things_on_the_same_support_are_landmarks() {
     let meaning =
         ground("in the room on the left there is a desk that has a globe on it and the wallet is on that desk");

@@ -15,6 +15,9 @@ const BLEND: f64 = 0.5;
 /// What moved by less has not moved, metres.
 const MOVED_M: f64 = 0.02;
 
+/// So many looks in plain view without a piece are needed to take it to be not there.
+const LOOKS_TO_REFUTE: f64 = 3.0;
+
 /// A piece of furniture the robot has seen.
 #[derive(Clone, Debug)]
 pub struct Furniture {
@@ -29,6 +32,8 @@ pub struct Furniture {
     /// What all looks together say of its category: probabilities added up.
     votes: BTreeMap<String, f64>,
     looks: f64,
+    /// Looks since the last one that showed it, in which it stood in plain view and was not seen.
+    overlooked: f64,
 }
 
 impl Furniture {
@@ -40,6 +45,7 @@ impl Furniture {
             searched: false,
             votes: BTreeMap::new(),
             looks: 0.0,
+            overlooked: 0.0,
         };
         furniture.count(detection);
         furniture
@@ -58,12 +64,23 @@ impl Furniture {
     /// How sure the robot is that this is there and of a category for which `is` holds, 0 to 1, over all looks.
     pub fn belief(&self, is: impl Fn(&str) -> bool) -> f64 {
         let votes: f64 = self.votes.iter().filter(|(category, _)| is(category)).map(|(_, votes)| votes).sum();
-        (votes / self.looks.max(1e-9)).min(1.0)
+        (votes / (self.looks + self.overlooked).max(1e-9)).min(1.0)
+    }
+
+    /// Whether more looks that should have shown it did not than did: most likely it is not there.
+    pub fn is_refuted(&self) -> bool {
+        self.overlooked >= LOOKS_TO_REFUTE && self.overlooked > self.looks
+    }
+
+    /// Whether it was seen once only, and may yet be refuted.
+    pub fn is_unsure(&self) -> bool {
+        self.looks < 2.0 && !self.is_refuted()
     }
 
     /// Adds a look's word on the category; the likeliest by all looks is what the piece is called.
     fn count(&mut self, detection: &Detection) {
         self.looks += 1.0;
+        self.overlooked = 0.0;
         if detection.scores.is_empty() {
             *self.votes.entry(detection.category.clone()).or_default() += detection.confidence;
         }
@@ -126,6 +143,23 @@ impl Beliefs {
             changed |= self.place(detection);
         }
         changed
+    }
+
+    /// Doubts what stands in plain view and is not in `view`; true when a piece is now taken to be not there.
+    pub fn doubt(&mut self, view: &View, in_plain_view: impl Fn(&Furniture) -> bool) -> bool {
+        let mut refuted = false;
+        for known in &mut self.furniture {
+            let shown = view.furniture.iter().any(|seen| {
+                let centre = vec2(seen.x, seen.y);
+                (known.centre() - centre).norm() < SAME_PLACE_M || known.footprint.contains(centre)
+            });
+            if !shown && in_plain_view(known) {
+                let before = known.is_refuted();
+                known.overlooked += 1.0;
+                refuted |= known.is_refuted() && !before;
+            }
+        }
+        refuted
     }
 
     fn place(&mut self, detection: &Detection) -> bool {
@@ -225,5 +259,24 @@ mod tests {
         beliefs.take_in(&View { furniture, objects: Vec::new() });
         assert_eq!(beliefs.under(vec2(3.1, 0.1)), Some(1));
         assert_eq!(beliefs.under(vec2(1.5, 2.0)), None);
+    }
+
+    #[test]
+    fn what_was_seen_once_and_then_never_where_it_should_show_is_taken_to_be_not_there() {
+        let mut beliefs = Beliefs::default();
+        beliefs.take_in(&View { furniture: vec![detection("table", 2.0, 0.5)], objects: Vec::new() });
+        assert!(beliefs.furniture[0].is_unsure());
+        let refuted: Vec<bool> = (0..4).map(|_| beliefs.doubt(&View::default(), |_| true)).collect();
+        assert_eq!(refuted, [false, false, true, false]);
+        assert!(beliefs.furniture[0].is_refuted());
+        beliefs.take_in(&View { furniture: vec![detection("table", 2.0, 0.5)], objects: Vec::new() });
+        assert!(!beliefs.furniture[0].is_refuted());
+    }
+
+    #[test]
+    fn what_is_hidden_is_not_doubted() {
+        let mut beliefs = Beliefs::default();
+        beliefs.take_in(&View { furniture: vec![detection("table", 2.0, 0.5)], objects: Vec::new() });
+        (0..9).for_each(|_| assert!(!beliefs.doubt(&View::default(), |_| false)));
     }
 }

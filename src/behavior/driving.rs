@@ -1,5 +1,6 @@
 //! How the pilot turns, drives along a way, and gets clear of what it did not expect.
 
+use super::beliefs::Furniture;
 use super::pilot::{Halt, Pilot, SWING_M, TICK_S};
 use super::route::{length, route};
 use crate::geometry::{Pose, Vec2, vec2, wrap_angle};
@@ -66,6 +67,12 @@ impl Pilot<'_> {
     pub fn go_to(&mut self, goal: Vec2) -> Result<(), Halt> {
         for _ in 0..MOST_REPLANS {
             let Some(points) = self.way_to(goal) else {
+                // What was seen once may not be there: wait for another look.
+                if self.beliefs.furniture.iter().any(Furniture::is_unsure) {
+                    self.tick(0.0, 0.0)?;
+                    self.look();
+                    continue;
+                }
                 return Err(Halt::Blocked(format!("no way to ({:.1}, {:.1})", goal.x, goal.y)));
             };
             if self.follow(&points)? {

@@ -119,8 +119,7 @@ impl Localizer {
         let mut jacobian = Matrix4::identity();
         jacobian[(0, 2)] = -step.y;
         jacobian[(1, 2)] = step.x;
-        // Systematic errors add up over a way, so the deviation of a metre's sum is the sum of its parts' deviations:
-        // variances grow with the metre, not with the step.
+        // Variances grow with the way, so that they come out the same for any length of step.
         let along = DRIVE_SHARE * DRIVE_SHARE * metres;
         let turning = TURN_SHARE * TURN_SHARE * turned.abs() + BEND_RAD_PER_M * BEND_RAD_PER_M * metres;
         let noise = Vector4::new(along, along, turning, 1e-9 * (metres + turned.abs()));

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::localizer::Localizer;
 use super::{Beliefs, Journal, Watcher};
-use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, wrap_angle};
+use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, segments_touch, wrap_angle};
 use crate::perception::{Eyes, View};
 use crate::robot::{MobileBase, RobotError};
 use crate::world::RoomMap;
@@ -17,6 +17,11 @@ pub const SWING_M: f64 = 0.43;
 const CELL_M: f64 = 0.1;
 /// Beyond this, distances to obstacles are not told apart, metres.
 const REACH_M: f64 = 0.8;
+/// A piece so far away and so near the middle of the picture, with nothing before it, should be seen.
+const PLAIN_VIEW_M: std::ops::Range<f64> = 1.3..4.0;
+const PLAIN_VIEW_RAD: f64 = 0.4;
+/// A line of sight passes walls by this, metres: a cell's middle lies half a cell off them at most.
+const SIGHT_M: f64 = 0.08;
 /// Why the executive had to end early.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Halt {
@@ -129,7 +134,8 @@ impl<'a> Pilot<'a> {
         if let Some(frame) = self.eyes.frame() {
             self.watcher.frame(time_s, self.localizer.pose(), frame);
         }
-        let changed = self.beliefs.take_in(&view);
+        let taken_in = self.beliefs.take_in(&view);
+        let changed = self.doubt(&view) || taken_in;
         self.view = view;
         if changed {
             self.rebuild_grid();
@@ -139,11 +145,27 @@ impl<'a> Pilot<'a> {
         changed
     }
 
+    /// Doubts what should show in a look and does not; true when a piece is now taken to be not there.
+    fn doubt(&mut self, view: &View) -> bool {
+        let (pose, rooms) = (self.pose(), &self.rooms_only);
+        let outlines: Vec<Polygon> = self.beliefs.furniture.iter().map(|f| f.footprint.clone()).collect();
+        self.beliefs.doubt(view, |furniture| {
+            let centre = furniture.centre();
+            let between = |other: &&Polygon| other.edges().any(|(a, b)| segments_touch(pose.position(), centre, a, b));
+            // Its own outline is crossed, too.
+            PLAIN_VIEW_M.contains(&pose.distance_to(centre))
+                && pose.bearing_to(centre).abs() < PLAIN_VIEW_RAD
+                && rooms.clearance_along(pose.position(), centre) > SIGHT_M
+                && outlines.iter().filter(between).count() <= 1
+        })
+    }
+
     pub(super) fn rebuild_grid(&mut self) {
-        self.outlines = self.beliefs.furniture.iter().map(|furniture| furniture.footprint.clone()).collect();
+        let there = self.beliefs.furniture.iter().filter(|furniture| !furniture.is_refuted());
+        self.outlines = there.map(|furniture| furniture.footprint.clone()).collect();
         self.grid = self.rooms_only.clone();
-        for furniture in &self.beliefs.furniture {
-            self.grid.add_polygon(&furniture.footprint);
+        for outline in &self.outlines {
+            self.grid.add_polygon(outline);
         }
         for &bump in &self.beliefs.bumps {
             self.grid.add_polygon(&Polygon::rectangle(Pose::new(bump.x, bump.y, 0.0), 0.1, 0.1));

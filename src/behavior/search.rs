@@ -118,11 +118,13 @@ fn factors(
     let mut factors: Vec<Factor> =
         wanted.pairs.iter().map(|pair| pair_factor(index, beliefs, pair, wanted.one_frame, place, lexicon)).collect();
     let by_robot = wanted.pairs.iter().any(|pair| pair.pair.reference == "robot");
-    let sideways = match () {
-        // A stated direction from the robot already says where to look.
-        () if by_robot || wanted.nearest_first => 1.0,
-        () if wanted.pairs.is_empty() => SIDEWAYS_ALONE,
-        () => SIDEWAYS,
+    // A stated direction from the robot already says where to look.
+    let sideways = if by_robot || wanted.nearest_first {
+        1.0
+    } else if wanted.pairs.is_empty() {
+        SIDEWAYS_ALONE
+    } else {
+        SIDEWAYS
     };
     factors.push(nearness(candidate, place, sideways));
     let belief = belief_in_target(candidate, wanted.target.as_deref(), lexicon);
@@ -366,7 +368,7 @@ mod tests {
         let wanted = Wanted { pairs: vec![behind], ..Wanted::default() };
         let (room, arrived) = (room(), Pose::new(0.0, 3.0, FRAC_PI_2));
         let ranked = rank(&only_front, &wanted, Place { room: &room, arrived }, Lexicon::embedded());
-        assert!(ranked[0].reading.contains("intrinsic frame, viewer 0.00"), "{}", ranked[0].reading);
+        assert!(ranked[0].reading.contains("(intrinsic frame, facing"), "{}", ranked[0].reading);
     }
 
     #[test]

@@ -23,7 +23,7 @@ pub enum FrameInput {
     /// JSON lines.
     Lines(Inputs),
     /// MCAP logs.
-    Logs(FrameLogs),
+    Logs(Box<FrameLogs>),
 }
 
 impl FrameInput {
@@ -31,10 +31,14 @@ impl FrameInput {
     pub fn open(files: &[PathBuf], options: &FromLog) -> Result<Self, Failure> {
         let logs = |paths: Vec<PathBuf>| FrameLogs::new(paths, options.clone());
         match (&options.from, files) {
-            (Some(path), _) => Ok(Self::Logs(logs(vec![path.clone()]))),
+            (Some(path), _) => Ok(Self::Logs(Box::new(logs(vec![path.clone()])))),
             (None, [first, ..]) if first != Path::new("-") => {
                 let is_log = File::open(first).is_ok_and(|file| is_regular(&file) && begins_as_log(file).0);
-                if is_log { Ok(Self::Logs(logs(files.to_vec()))) } else { Ok(Self::Lines(Inputs::new(files))) }
+                if is_log {
+                    Ok(Self::Logs(Box::new(logs(files.to_vec()))))
+                } else {
+                    Ok(Self::Lines(Inputs::new(files)))
+                }
             }
             _ => {
                 let (is_log, begin) = begins_as_log(io::stdin());
@@ -44,7 +48,7 @@ impl FrameInput {
                 }
                 let mut logs = logs(Vec::new());
                 logs.begin(stdin, "<stdin>".to_string(), true)?;
-                Ok(Self::Logs(logs))
+                Ok(Self::Logs(Box::new(logs)))
             }
         }
     }
@@ -78,6 +82,7 @@ struct Current {
 }
 
 /// A frame and where it came from.
+#[derive(Clone, Debug)]
 pub struct FrameItem {
     /// The log's name.
     pub file: String,
@@ -85,6 +90,20 @@ pub struct FrameItem {
     pub ordinal: usize,
     /// The frame.
     pub timed: TimedFrame,
+}
+
+impl FrameItem {
+    /// The log's name without folder and ending, and the frame's number: `kitchen_12`.
+    pub fn name(&self) -> String {
+        let stem = Path::new(&self.file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        format!("{}_{}", stem.unwrap_or_default().trim_matches(['<', '>']), self.ordinal)
+    }
+
+    /// Where it stands in its log, for messages.
+    pub fn line(&self) -> Line {
+        let (number, ordinal) = (self.ordinal, self.ordinal);
+        Line { file: self.file.as_str().into(), number, ordinal, bytes: Vec::new(), terminated: true }
+    }
 }
 
 impl FrameLogs {
@@ -146,25 +165,19 @@ impl Source<FrameItem> for FrameLogs {
 pub fn run_frames(
     program: &'static str,
     common: &Common,
-    mut logs: FrameLogs,
+    logs: &mut FrameLogs,
     stage: &dyn Stage,
     see: &See,
 ) -> Result<Exit, Failure> {
-    run_source(program, common, &mut logs, &|item: &FrameItem| {
+    run_source(program, common, logs, &|item: &FrameItem| {
         let mut record = Record::default();
         record.set("id", &item.ordinal.to_string());
+        record.set("frame", &item.name());
         record.set("stamp_ns", &item.timed.stamp_ns);
         record.set("log_ns", &item.timed.log_ns);
         record.set("robot_pose", &item.timed.robot);
-        let place = Line {
-            file: item.file.as_str().into(),
-            number: item.ordinal,
-            ordinal: item.ordinal,
-            bytes: Vec::new(),
-            terminated: true,
-        };
         let mut outcome = Outcome::default();
-        finish(&place, record, common.format, stage, &|record| see(&item.timed.frame, record), &mut outcome);
+        finish(&item.line(), record, common.format, stage, &|record| see(&item.timed.frame, record), &mut outcome);
         outcome
     })
 }

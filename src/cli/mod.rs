@@ -7,6 +7,7 @@
 mod arguments;
 mod diagnostic;
 mod exit;
+mod eyes;
 mod filter;
 mod frame_input;
 mod input;
@@ -22,6 +23,7 @@ mod threads;
 pub use arguments::{ColorChoice, Common, Format};
 pub use diagnostic::{Diagnostic, Reporter};
 pub use exit::{Exit, Failure};
+pub use eyes::EyeArguments;
 pub use filter::{Intake, run_filter, run_filter_on};
 pub use frame_input::{FrameInput, FrameItem, FrameLogs, See, run_frames};
 pub use input::{Inputs, Line, read_file};
@@ -31,7 +33,8 @@ pub use output::{SharedSink, Sink, open_output};
 pub use program::{Program, command_of, main};
 pub use progress::Progress;
 pub use scores::{
-    Table, find_description, load_gold, load_gold_with, read_lines, write_report, write_scores, write_text,
+    Table, find_description, load_corpora, load_gold, load_gold_with, read_lines, write_report, write_scores,
+    write_text,
 };
 pub use source::Source;
 pub use threads::on_threads;

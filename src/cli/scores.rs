@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::{Common, Exit, Failure, Format, Inputs, Source, open_output, read_file};
-use crate::evaluation::{Gold, Scores, add_meanings, read_gold, text_tables};
+use crate::evaluation::{Gold, Scores, read_gold, text_tables, with_texts};
 use crate::record::Record;
 
 /// Scores with the line that stands over them.
@@ -29,9 +29,10 @@ pub fn load_gold(path: Option<&Path>) -> Result<Vec<Gold>, Failure> {
 /// The same, with the meanings of another file when one is named.
 pub fn load_gold_with(path: Option<&Path>, meanings: Option<&Path>) -> Result<Vec<Gold>, Failure> {
     let gold = load_gold(path)?;
-    let Some(meanings) = meanings else { return Ok(gold) };
-    let (text, file) = (read_file(meanings)?, meanings.display().to_string());
-    add_meanings(gold, &text, &file).map_err(|error| Failure::Failed(error.to_string()))
+    match meanings {
+        Some(meanings) => Ok(with_texts(load_gold(Some(meanings))?, gold)),
+        None => Ok(gold),
+    }
 }
 
 /// Id and text of the description with that id, or of the first one.
@@ -56,10 +57,10 @@ pub fn find_description(files: &[PathBuf], id: Option<&str>) -> Result<(String, 
     }))
 }
 
-/// Writes a result as JSON or, by `text`, for people.
-pub fn write_report<T: Serialize>(common: &Common, report: &T, text: fn(&T) -> String) -> Result<(), Failure> {
+/// Writes a report as JSON, or as the text that `table` draws.
+pub fn write_report(common: &Common, report: &impl Serialize, table: impl FnOnce() -> String) -> Result<(), Failure> {
     let written = match common.format {
-        Format::Text => text(report),
+        Format::Text => table(),
         Format::Json => serde_json::to_string(report).map_err(|e| Failure::Failed(e.to_string()))?,
     };
     write_text(common, &written)
@@ -93,11 +94,24 @@ pub fn read_lines(files: &[PathBuf]) -> Result<Vec<String>, Failure> {
 
 /// Writes scores as text or JSON; a record that was missing or doubled makes the run a lossy one.
 pub fn write_scores(common: &Common, table: &Table) -> Result<Exit, Failure> {
-    match common.format {
-        Format::Text => write_report(common, table, |table| text_tables(&table.title, &table.scores))?,
-        Format::Json => write_report(common, &table.scores, |_| String::new())?,
-    }
+    write_report(common, &table.scores, || text_tables(&table.title, &table.scores))?;
     let lossless =
         table.scores.missing.is_empty() && table.scores.doubled.is_empty() && table.scores.unknown.is_empty();
     Ok(if lossless { Exit::Done } else { Exit::Lost })
+}
+
+/// Gold corpora by name: the files, or the shipped templates and speech where none is named.
+pub fn load_corpora(files: &[PathBuf]) -> Result<Vec<(String, Vec<Gold>)>, Failure> {
+    const SHIPPED: [(&str, &str); 2] = [
+        ("templates.jsonl", include_str!("../../corpus/templates.jsonl")),
+        ("speech.jsonl", include_str!("../../corpus/speech.jsonl")),
+    ];
+    let read = |text: &str, file: &str| {
+        let gold = read_gold(text, file).map_err(|error| Failure::Failed(error.to_string()))?;
+        Ok((file.to_string(), gold))
+    };
+    match files {
+        [] => SHIPPED.iter().map(|(file, text)| read(text, file)).collect(),
+        files => files.iter().map(|path| read(&read_file(path)?, &path.display().to_string())).collect(),
+    }
 }

@@ -5,10 +5,12 @@ use std::collections::BTreeSet;
 use serde::Deserialize;
 
 use super::brackets::{Bracket, brackets_of};
-use super::gold_tree::tree_of;
 use super::labelled::parse_tree;
-use super::token_gold::{TokenEntry, TokenGrounding, grounding_of_tokens, tag_of};
-use crate::record::{Chunk, Direction, Grounding, Node, ObjectSlot, RoomSlot, Tag};
+use super::meaning_gold::MeaningEntry;
+use super::model::{in_order, label_of};
+use super::treebank::TokenEntry;
+use crate::grounding::paper::Label;
+use crate::record::{Chunk, Direction, Grounding, Node, ObjectSlot, RoomSlot, Tag, Token};
 
 /// What a description is labelled as.
 #[derive(Clone, Debug, Default)]
@@ -17,8 +19,6 @@ pub struct Gold {
     pub id: String,
     /// The description.
     pub text: String,
-    /// Its chunk tree; empty when it has none.
-    pub chunks: Vec<Chunk>,
     /// Labelled brackets over its words; empty when it has no tree.
     pub brackets: BTreeSet<Bracket>,
     /// Whether it says what the description means.
@@ -31,12 +31,36 @@ pub struct Gold {
     pub object: Option<String>,
     /// Whether any target furniture is named.
     pub has_target: bool,
+    /// The last target furniture named.
+    pub target: Option<String>,
     /// References and directions, sorted.
     pub pairs: Vec<(String, Direction)>,
+    /// Pairs that may be said or not.
+    pub optional: Vec<(String, Direction)>,
+    /// Whether the side is doubtful: then none is asked for.
+    pub side_in_doubt: bool,
+    /// Whose rules it was labelled by, and so how agreement is counted.
+    pub rules: Rules,
+    /// Words with parts of speech, where the corpus gives them.
+    pub tokens: Vec<Token>,
+    /// The tree; empty when there is none.
+    pub chunks: Vec<Chunk>,
+    /// A label for each chunk of the tree in pre-order; empty when there is none.
+    pub labels: Vec<Label>,
     /// What it means, as the stages have it; nothing where it is not labelled.
     pub grounding: Option<Grounding>,
     /// Ids of the furniture that the words allow.
     pub expect: Vec<String>,
+}
+
+/// By whose rules descriptions were labelled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rules {
+    /// `docs/annotation.md`.
+    #[default]
+    Guide,
+    /// A label for each chunk, as the paper's authors gave them.
+    Chunks,
 }
 
 /// A gold file that cannot be read.
@@ -56,6 +80,7 @@ pub struct GoldError {
 enum Entry {
     Own(Box<OwnEntry>),
     Tokens(Box<TokenEntry>),
+    Meaning(Box<MeaningEntry>),
 }
 
 /// The project's own format.
@@ -83,11 +108,12 @@ pub fn read_gold(text: &str, file: &str) -> Result<Vec<Gold>, GoldError> {
         .map(|(i, line)| {
             let wrong = |message: String| GoldError { file: file.to_string(), line: i + 1, message };
             let entry = serde_json::from_str(line).map_err(|error| {
-                wrong(format!("no gold description ({error}); it needs id, text, and tree with grounding, or chunks"))
+                wrong(format!("no gold description ({error}); it needs id, text, and tree with grounding, or tokens with chunks; or id, object, room and pairs"))
             })?;
             match entry {
                 Entry::Own(own) => from_own(*own).map_err(wrong),
-                Entry::Tokens(tokens) => Ok(from_tokens(*tokens)),
+                Entry::Tokens(tokens) => Ok(tokens.into_gold()),
+                Entry::Meaning(meaning) => Ok(meaning.into_gold()),
             }
         })
         .collect()
@@ -108,7 +134,6 @@ fn from_own(entry: OwnEntry) -> Result<Gold, String> {
     let room = room.unwrap_or_default();
     Ok(Gold {
         brackets: brackets_of(&entry.text, &chunks),
-        chunks,
         id: entry.id,
         text: entry.text,
         has_grounding: true,
@@ -116,38 +141,14 @@ fn from_own(entry: OwnEntry) -> Result<Gold, String> {
         room: room.name,
         object: object.map(|object| object.name),
         has_target: nodes.iter().any(|node| node.target.is_some()),
+        target: nodes.iter().rev().find_map(|node| node.target.clone()),
         pairs,
+        labels: in_order(&tree.chunks).into_iter().map(label_of).collect(),
+        chunks,
         grounding: Some(grounding),
         expect: entry.expect,
+        ..Gold::default()
     })
-}
-
-fn from_tokens(entry: TokenEntry) -> Gold {
-    let last =
-        |pick: fn(&TokenGrounding) -> Option<&String>| entry.groundings.iter().filter_map(pick).next_back().cloned();
-    let room = last(|g| g.room.as_ref());
-    // These corpora name the room by its side in the apartment.
-    let side = match room.as_deref() {
-        Some("living room") => Some(Direction::Right),
-        Some("bedroom" | "bed room") => Some(Direction::Left),
-        _ => None,
-    };
-    let mut pairs: Vec<_> = entry.groundings.iter().filter_map(|grounding| grounding.pair()).collect();
-    pairs.sort();
-    Gold {
-        brackets: entry.chunks.iter().filter_map(|c| Some((tag_of(&c.tag)?, c.start, c.end))).collect(),
-        chunks: tree_of(&entry.text, &entry.chunks),
-        has_grounding: !entry.groundings.is_empty(),
-        side,
-        room: None,
-        object: last(|g| g.object.as_ref()).map(|object| object.replace(' ', "_")),
-        has_target: entry.groundings.iter().any(|g| g.target.is_some()),
-        pairs,
-        grounding: grounding_of_tokens(&entry),
-        expect: Vec::new(),
-        id: entry.id,
-        text: entry.text,
-    }
 }
 
 impl Gold {
@@ -177,8 +178,8 @@ mod tests {
     use crate::grounding::{Meaning, assemble, chunk_words, meaning_of_label};
     use crate::world::Scene;
 
-    fn corpora() -> Vec<(&'static str, &'static str)> {
-        vec![
+    fn corpora() -> [(&'static str, &'static str); 2] {
+        [
             ("templates.jsonl", include_str!("../../corpus/templates.jsonl")),
             ("speech.jsonl", include_str!("../../corpus/speech.jsonl")),
         ]
@@ -191,12 +192,26 @@ mod tests {
         for (file, text) in corpora() {
             for gold in read_gold(text, file).expect("a sound corpus") {
                 assert!(ids.insert(gold.id.clone()), "{} stands twice", gold.id);
-                assert!(
-                    !gold.expect.is_empty() && gold.expect.iter().all(|id| scene.item(id).is_some()),
-                    "{}",
-                    gold.id
-                );
+                assert!(gold.expect.iter().all(|id| scene.item(id).is_some()), "{}", gold.id);
+                assert!(file == "speech.jsonl" || !gold.expect.is_empty(), "{}", gold.id);
             }
+        }
+    }
+
+    #[test]
+    fn the_corpus_is_as_large_as_it_says() {
+        let sizes = corpora().map(|(file, text)| read_gold(text, file).expect("a sound corpus").len());
+        assert!(sizes[0] >= 149 && sizes[1] >= 200, "{sizes:?}");
+    }
+
+    #[test]
+    fn the_speech_has_every_tag_and_every_direction() {
+        let gold = read_gold(corpora()[1].1, "speech.jsonl").expect("a sound corpus");
+        for tag in Tag::ALL {
+            assert!(gold.iter().any(|g| g.brackets.iter().any(|(t, _, _)| *t == tag)), "{tag:?}");
+        }
+        for direction in ["front", "back", "left", "right", "central", "side", "between"] {
+            assert!(gold.iter().any(|g| g.pairs.iter().any(|(_, d)| d.name() == direction)), "{direction}");
         }
     }
 

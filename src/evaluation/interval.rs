@@ -50,6 +50,13 @@ impl Rate {
     }
 }
 
+impl std::fmt::Display for Rate {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let (low, high) = self.interval();
+        write!(f, "{:.3} ({}/{}, 95 % interval {low:.3} to {high:.3})", self.share(), self.hit, self.of)
+    }
+}
+
 impl Serialize for Rate {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let (low, high) = self.interval();

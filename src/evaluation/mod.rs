@@ -3,15 +3,17 @@
 pub mod behavior;
 mod blame;
 mod brackets;
+mod chunking;
 mod compare;
 mod furniture;
 mod furniture_gold;
 mod furniture_table;
 mod gold;
-mod gold_tree;
+mod grounding;
+mod import;
 mod interval;
 mod labelled;
-mod meanings;
+mod meaning_gold;
 mod merge;
 mod model;
 mod paper;
@@ -19,21 +21,27 @@ mod pipeline;
 mod report;
 mod score;
 mod table;
-mod token_gold;
 mod training_frame;
+mod treebank;
 
 mod what_if;
 
 pub use blame::{Blame, Blames, Stage, Wanted, blame, blame_text, meaning_phrase};
 pub use brackets::{Bracket, brackets_of};
+pub use chunking::{ChunkingScores, TagScores, chunking_table, score_chunking};
 pub use compare::{Change, CompareError, Comparison, Measure, compare, comparison_text, mcnemar_exact};
 pub use furniture::{FurnitureScores, SeenGroup, kind_of, score_furniture};
 pub use furniture_gold::{GoldFrame, GoldItem, gold_frames};
 pub use furniture_table::furniture_tables;
-pub use gold::{Gold, GoldError, read_gold};
+pub use gold::{Gold, GoldError, Rules, read_gold};
+pub use grounding::{
+    Bin, Disagreement, Experiment, GroundingScores, Kept, MeaningRates, Noise, SplitScores, Spread, TreeRates,
+    evaluate_grounding, grounding_table, misheard,
+};
+pub use import::{ImportError, Imported, import};
 pub use interval::Rate;
 pub use labelled::{LabelledChunk, LabelledTree, TreeError, parse_tree};
-pub use meanings::add_meanings;
+pub use meaning_gold::with_texts;
 pub use merge::{merge_scores, only_with_records};
 pub use model::training_record;
 pub use paper::{Case, Cell, Column, Paper, PaperTable, Row, Source, paper, paper_csv, paper_text};

@@ -7,6 +7,7 @@
 use serde_json::{Map, Value, json};
 
 use super::labelled::{LabelledChunk, TreeError, parse_tree};
+use crate::grounding::paper::Label;
 use crate::record::Tag;
 
 /// A training record: id, text, chunks, and a grounding for each chunk in pre-order.
@@ -15,6 +16,11 @@ pub fn training_record(id: &str, tree: &str) -> Result<Value, TreeError> {
     let chunks: Vec<_> = tree.chunks.iter().map(LabelledChunk::to_chunk).collect();
     let groundings: Vec<Value> = in_order(&tree.chunks).into_iter().map(label).collect();
     Ok(json!({"id": id, "text": tree.text, "chunks": chunks, "groundings": groundings}))
+}
+
+/// The label of a chunk as the paper's method learns it; of several pairs the first.
+pub(super) fn label_of(chunk: &LabelledChunk) -> Label {
+    serde_json::from_value(label(chunk)).unwrap_or_default()
 }
 
 /// All chunks in pre-order.
@@ -36,7 +42,8 @@ fn label(chunk: &LabelledChunk) -> Value {
             Tag::Obtp => label.insert("object".to_string(), json!(text)),
             Tag::Furtp => label.insert("target".to_string(), json!(text)),
             _ => {
-                let (reference, direction) = text.split_once('/').unwrap_or((text, "side"));
+                let (reference, direction) =
+                    text.split(',').next().and_then(|pair| pair.split_once('/')).unwrap_or((text, "side"));
                 label.insert("reference".to_string(), json!(reference));
                 label.insert("direction".to_string(), json!(direction))
             }

@@ -2,6 +2,7 @@
 
 use std::io::Cursor;
 
+use ::png::{BitDepth, ColorType, Decoder, OutputInfo, Transformations};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
@@ -23,7 +24,7 @@ pub fn decode_color(bytes: &[u8]) -> Result<Picture<[u8; 3]>, String> {
     if bytes.starts_with(b"\xff\xd8") {
         return decode_jpeg(bytes);
     }
-    let plain = png::Transformations::EXPAND | png::Transformations::STRIP_16;
+    let plain = Transformations::EXPAND | Transformations::STRIP_16;
     let (info, buffer) = decode_png(bytes, plain)?;
     let channels = info.color_type.samples();
     let pixel = |p: &[u8]| if channels < 3 { [p[0]; 3] } else { [p[0], p[1], p[2]] };
@@ -33,16 +34,16 @@ pub fn decode_color(bytes: &[u8]) -> Result<Picture<[u8; 3]>, String> {
 
 /// Decodes a depth picture: 16-bit grey PNG, in units of the file.
 pub fn decode_depth(bytes: &[u8]) -> Result<Picture<u16>, String> {
-    let (info, buffer) = decode_png(bytes, png::Transformations::IDENTITY)?;
-    if info.color_type != png::ColorType::Grayscale || info.bit_depth != png::BitDepth::Sixteen {
+    let (info, buffer) = decode_png(bytes, Transformations::IDENTITY)?;
+    if info.color_type != ColorType::Grayscale || info.bit_depth != BitDepth::Sixteen {
         return Err("not a 16-bit grey PNG; depth must keep its millimetres".to_string());
     }
     let pixels = buffer.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]])).collect();
     Ok(Picture { width: info.width as usize, height: info.height as usize, pixels })
 }
 
-fn decode_png(bytes: &[u8], transformations: png::Transformations) -> Result<(png::OutputInfo, Vec<u8>), String> {
-    let mut decoder = png::Decoder::new(Cursor::new(bytes));
+fn decode_png(bytes: &[u8], transformations: Transformations) -> Result<(OutputInfo, Vec<u8>), String> {
+    let mut decoder = Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(transformations);
     let mut reader = decoder.read_info().map_err(|e| e.to_string())?;
     let size = reader.output_buffer_size().ok_or("the picture is too large")?;

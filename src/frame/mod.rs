@@ -40,3 +40,12 @@ pub struct RgbdFrame {
     /// Camera optical frame (x right, y down, z ahead) to world (z up, floor at 0), 4 × 4 by rows, metres.
     pub world_from_camera: [[f64; 4]; 4],
 }
+
+/// A camera's pose rounded to a nanometre and a billionth of a turn.
+///
+/// Far below anything a sensor tells; a pose that came as a matrix and one
+/// that came as a quaternion are then the same, and so is what is seen from them.
+pub fn steady(pose: [[f64; 4]; 4]) -> [[f64; 4]; 4] {
+    // Adding zero makes −0 into 0.
+    pose.map(|row| row.map(|value| (value * 1e9).round() / 1e9 + 0.0))
+}

@@ -32,7 +32,12 @@ pub fn meaning_of(chunk: &ChunkWords, lexicon: &Lexicon, continues_move: bool) -
             }
         }
         Tag::Pers => words.side().map_or_else(Meaning::default, |side| Meaning::of_pair("robot", side, "whose side")),
-        Tag::Conf => Meaning { score: 1.0, because: "taken back by the speaker".to_string(), ..Meaning::default() },
+        Tag::Conf => Meaning {
+            side: words.side(),
+            score: 1.0,
+            because: "taken back by the speaker".to_string(),
+            ..Meaning::default()
+        },
     }
 }
 
@@ -51,7 +56,7 @@ impl Words<'_> {
             matches!(unit.role(), Some(Role::Determiner | Role::Number | Role::Adjective | Role::Conjunction))
                 || unit.class().is_some()
         };
-        self.units.iter().all(mentions)
+        leading_relation(self.units).is_none() && self.units.iter().all(mentions)
     }
 
     fn has_role(&self, role: Role) -> bool {
@@ -305,7 +310,10 @@ impl Words<'_> {
         let (object, score) = match known {
             Some(name) if self.has(&["a", "an", "some"]) && !self.has(&["the"]) => (Some(name), 0.8),
             Some(name) => (Some(name), 0.97),
-            None => (self.unknown_noun(), 0.6),
+            None => match self.furniture_asked_for() {
+                Some(name) => (Some(name), 0.85),
+                None => (self.unknown_noun(), 0.6),
+            },
         };
         let because = object.as_ref().map_or("names no object".to_string(), |name| format!("names `{name}`"));
         Meaning {
@@ -316,6 +324,11 @@ impl Words<'_> {
             because,
             ..Meaning::default()
         }
+    }
+
+    /// "The lamp is (on the desk)": furniture that stands on furniture.
+    fn furniture_asked_for(&self) -> Option<String> {
+        self.noun(Class::is_furniture).map(str::to_string)
     }
 
     fn last_unknown(&self) -> Option<String> {
@@ -329,7 +342,9 @@ impl Words<'_> {
         let before = &self.units[..clause.filter(|at| *at > 0).unwrap_or(self.units.len())];
         let article = |unit: &Unit| matches!(unit.role(), Some(Role::Determiner | Role::Hearer));
         before.iter().any(article).then_some(())?;
-        before.iter().rev().find(|unit| unit.kind == UnitKind::Unknown).map(|unit| unit.lower.replace('-', "_"))
+        // "The squeaky thing" names nothing.
+        let head = before.iter().rev().find(|u| u.kind == UnitKind::Unknown || u.role() == Some(Role::Generic))?;
+        (head.kind == UnitKind::Unknown).then(|| head.lower.replace('-', "_"))
     }
 }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::composed::{meaning_of, settle_target};
+use super::meaning::pair;
 use super::paper::{LabelledTree, Model};
 use super::readings;
 use super::words::{ChunkWords, chunk_words_of};
@@ -73,9 +74,22 @@ impl Grounder {
         grounding
     }
 
+    /// What each chunk of a tree means by itself, in pre-order.
+    pub fn meanings(&self, text: &str, tokens: &[Token], chunks: &[Chunk]) -> Vec<(Tag, Meaning)> {
+        let words = tokenize(text);
+        let flat = chunk_words_of(&words, chunks);
+        let meanings = match &self.method {
+            Method::Composed => self.composed(&words, &flat),
+            Method::Paper(model) => model.meanings(&LabelledTree::unlabelled(text, tokens, chunks)),
+        };
+        flat.iter().map(|chunk| chunk.tag).zip(meanings).collect()
+    }
+
     fn composed(&self, words: &[Word], chunks: &[ChunkWords]) -> Vec<Meaning> {
         let meaning = |i: usize| meaning_of(&chunks[i], &self.lexicon, continues_move(i, words, chunks));
-        (0..chunks.len()).map(meaning).collect()
+        let mut meanings: Vec<Meaning> = (0..chunks.len()).map(meaning).collect();
+        resolve_it(chunks, &mut meanings, &self.lexicon);
+        meanings
     }
 
     /// Whether the method looks at parts of speech.
@@ -89,6 +103,22 @@ impl Grounder {
     }
 }
 
+/// "A couch, and behind it a table": what is behind it is behind the furniture named last, not behind the robot.
+fn resolve_it(chunks: &[ChunkWords], meanings: &mut [Meaning], lexicon: &Lexicon) {
+    let mut last: Option<String> = None;
+    for (chunk, meaning) in chunks.iter().zip(meanings) {
+        let it =
+            chunk.words.windows(2).any(|two| matches!(two[0].lower.as_ref(), "behind" | "of") && two[1].lower == "it");
+        if let Some(noun) = last.as_ref().filter(|_| it && meaning.pairs.iter().all(|pair| pair.reference == "robot")) {
+            meaning.pairs = meaning.pairs.iter().map(|of_it| pair(noun, of_it.direction)).collect();
+            meaning.because.push_str(&format!("; \"it\" is the {}", noun.replace('_', " ")));
+        }
+        let furniture = |noun: &&String| lexicon.class_of(noun).is_some_and(Class::is_furniture);
+        let references = meaning.pairs.iter().map(|pair| &pair.reference);
+        last = meaning.target.iter().chain(references).find(furniture).cloned().or(last);
+    }
+}
+
 /// Whether a chunk outside all others follows a move or a turn with only "and", "then" between.
 fn continues_move(index: usize, words: &[Word], chunks: &[ChunkWords]) -> bool {
     let chunk = &chunks[index];
@@ -99,7 +129,10 @@ fn continues_move(index: usize, words: &[Word], chunks: &[ChunkWords]) -> bool {
     let from = words.partition_point(|word| word.start < before.end);
     let past = words.partition_point(|word| word.start < chunk.start);
     let joins = |word: &Word| matches!(word.lower.as_ref(), "and" | "then" | "uh" | "um" | "so");
-    matches!(before.tag, Tag::Irmrp | Tag::Ormtp) && from < past && words[from..past].iter().all(joins)
+    let after = words.partition_point(|word| word.start < chunk.end);
+    // "And to your left is a shelf" is no move.
+    let told = words.get(after).is_some_and(|word| matches!(word.lower.as_ref(), "is" | "are" | "'s" | "there"));
+    matches!(before.tag, Tag::Irmrp | Tag::Ormtp) && from < past && words[from..past].iter().all(joins) && !told
 }
 
 fn warnings(text: &str, units: &[Unit], chunks: &[ChunkWords]) -> Vec<String> {

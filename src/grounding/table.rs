@@ -14,7 +14,8 @@ pub fn table(text: &str, grounding: &Grounding) -> String {
     lines.extend(grounding.nodes.iter().enumerate().map(|(i, node)| format!("  node {}  {}", i + 1, describe(node))));
     lines.push(format!("  score   {:.2}", grounding.score.0));
     lines.extend(grounding.why.iter().map(|why| {
-        format!("    {:5} {:40} {}", why.tag.name(), text.get(why.start..why.end).unwrap_or(""), why.because)
+        let words = shortened(text.get(why.start..why.end).unwrap_or(""));
+        format!("    {:5} {words:40} {}", why.tag.name(), why.because)
     }));
     let remarks = grounding.warnings.iter().chain(&grounding.problems).chain(&grounding.question);
     lines.extend(remarks.map(|remark| format!("  !  {remark}")));
@@ -23,6 +24,14 @@ pub fn table(text: &str, grounding: &Grounding) -> String {
         lines.push(format!("  unused  {}", words.join(", ")));
     }
     lines.join("\n")
+}
+
+/// The beginning of long words, so that the reasons stand below one another.
+fn shortened(words: &str) -> String {
+    if words.chars().count() <= 40 {
+        return words.to_string();
+    }
+    words.chars().take(39).chain(['…']).collect()
 }
 
 fn describe(node: &Node) -> String {

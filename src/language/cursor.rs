@@ -2,8 +2,8 @@
 
 use std::sync::OnceLock;
 
-use super::lexicon::{Class, Role};
 use super::units::{Unit, UnitKind};
+use super::word_class::{Class, Role};
 use crate::record::Direction;
 
 /// How a phrase relates something to furniture or an object.
@@ -111,8 +111,16 @@ impl<'u> Cursor<'u> {
                 self.class(at + 1).is_some()
                     || self.role(at + 1) == Some(Role::Adjective)
                     || self.role(at + 1) == Some(Role::Side)
+                    || self.is(at + 1, &["hand", "side"]) && self.class(at + 2).is_some()
             }
             Some(Role::Adverb) => self.is(at, &["very", "immediate"]),
+            // "The left hand room".
+            Some(Role::SideWord) => {
+                self.is(at, &["hand", "side"])
+                    && at > 0
+                    && self.role(at - 1) == Some(Role::Side)
+                    && self.class(at + 1).is_some()
+            }
             Some(Role::There) => false,
             _ => self.is_unknown(at) || self.is(at, &["'s"]) && at > 0 && self.is_unknown(at - 1),
         }

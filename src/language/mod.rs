@@ -9,9 +9,11 @@
 //! 4. `phrases`: finite-state patterns over units: moves, turns, rooms, places, furniture, objects.
 //! 5. `tree`: phrases nested under the nine tags of [`Tag`](crate::record::Tag).
 
+mod corrections;
 pub(crate) mod cursor;
 mod draw;
 mod lexicon;
+mod motion_phrases;
 mod object_phrases;
 mod phrases;
 mod place_phrases;
@@ -20,12 +22,14 @@ mod stage;
 pub mod tokens;
 mod tree;
 mod units;
+mod word_class;
 
 pub use cursor::{Relation, leading_relation};
 pub use draw::draw_tree;
-pub use lexicon::{Class, Lexicon, LexiconError, Noun, Role, lexicon_with};
+pub use lexicon::{Lexicon, LexiconError, Noun, lexicon_with};
 pub use stage::Chunker;
 pub use units::{Unit, UnitKind, tag as tag_words, units};
+pub use word_class::{Class, Role};
 
 use crate::record::{Chunk, Token};
 

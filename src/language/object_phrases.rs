@@ -1,8 +1,8 @@
 //! Clauses about the object: "the mug is", "you will find the mug", "bring me the book", "it 's".
 
-use super::cursor::Cursor;
-use super::lexicon::{Class, Role};
+use super::cursor::{Cursor, NounPhrase, Relation};
 use super::phrases::{Kind, Phrase};
+use super::word_class::{Class, Role};
 
 /// The verbs that go with a subject: "will be", "should be sitting", "is".
 const PREDICATE: [Role; 5] = [Role::Modal, Role::Copula, Role::Lying, Role::Adverb, Role::Has];
@@ -32,6 +32,9 @@ impl Cursor<'_> {
         match self.noun_phrase(object, true).filter(|_| !pronoun) {
             Some(noun) => match self.class(noun.head) {
                 Some(Class::Object) | None => Some(Phrase::new(Kind::Object, at, noun.past, "find the object")),
+                Some(class) if self.is_definite(noun) && self.stands_on(class, noun.past) => {
+                    Some(Phrase::new(Kind::Object, at, noun.past, "find what stands on furniture"))
+                }
                 Some(class) if class.is_furniture() => Some(Phrase::new(Kind::Target, at, noun.past, "find furniture")),
                 _ => None,
             },
@@ -70,6 +73,9 @@ impl Cursor<'_> {
                 Some(Phrase::new(Kind::Object, at, past, "the object"))
             }
             Some(Class::Object) => Some(Phrase::new(Kind::Object, at, past, "the object alone")),
+            Some(class) if past > noun.past && self.is_definite(noun) && self.stands_on(class, past) => {
+                Some(Phrase::new(Kind::Object, at, past, "what stands on furniture is"))
+            }
             None if told && past > noun.past && self.role(noun.past) != Some(Role::Has) => {
                 Some(Phrase::new(Kind::Object, at, past, "an unknown thing is"))
             }
@@ -77,7 +83,34 @@ impl Cursor<'_> {
         }
     }
 
-    fn is_company(&self, noun: super::cursor::NounPhrase) -> bool {
+    fn is_definite(&self, noun: NounPhrase) -> bool {
+        self.noun_has_article(noun.first, noun.head) && !self.is(noun.first, &["a", "an", "some", "another"])
+    }
+
+    /// Whether a piece of furniture is said to stand on another, and so is what is asked for: "the lamp is on the
+    /// desk", "the basket is in the kitchen on the shelf"; a lamp or a plant may be so in a room as well.
+    fn stands_on(&self, class: Class, at: usize) -> bool {
+        if !class.is_furniture() {
+            return false;
+        }
+        let room = self.is(at, &["in"]).then(|| self.noun_phrase(at + 1, false)).flatten();
+        let room = room.filter(|noun| self.class(noun.head) == Some(Class::Room));
+        let on = room.map_or(at, |noun| noun.past);
+        let support = match self.relation(on).filter(|_| self.is(on, &["on", "onto", "in"])) {
+            Some((Relation::On, noun)) => self.noun_phrase(noun, false).and_then(|noun| self.class(noun.head)),
+            _ => None,
+        };
+        let holds = |class| {
+            matches!(
+                class,
+                Class::TableLike | Class::Storage | Class::Seat | Class::Couch | Class::Bed | Class::Appliance
+            )
+        };
+        let it = self.is(on, &["on"]) && self.is(on + 1, &["it", "there"]);
+        it || support.is_some_and(holds) || room.is_some() && matches!(class, Class::Lamp | Class::Plant)
+    }
+
+    fn is_company(&self, noun: NounPhrase) -> bool {
         let lying = self.skip(noun.past, &[Role::Lying]);
         let there = lying > noun.past && self.role(lying) == Some(Role::There);
         self.is(noun.first, &["a", "an", "some"]) && (there || self.on_it_past(noun.past) > noun.past)

@@ -1,8 +1,8 @@
 //! Places: rooms, parts of a room, sides of the hearer, furniture.
 
 use super::cursor::{Cursor, NounPhrase, Relation};
-use super::lexicon::{Class, Role};
 use super::phrases::{Kind, Phrase};
+use super::word_class::{Class, Role};
 
 /// Prepositions that lead into a room or through a door.
 const INTO: [&str; 10] = ["in", "into", "to", "through", "inside", "toward", "towards", "at", "for", "of"];
@@ -264,6 +264,8 @@ impl Cursor<'_> {
             && let Some(noun) = self.noun_phrase(i + 1, false)
         {
             return match self.class(noun.head) {
+                // "Along the wall in the room on the left": the room has a phrase of its own.
+                Some(Class::Room) if self.is(i, &["in"]) && self.side_past(noun.past, false).is_some() => Some(i),
                 Some(Class::Room | Class::Wall | Class::Part) => Some(noun.past),
                 Some(class) if (class.is_furniture() || class == Class::Object) && self.is(i, &["of"]) => None,
                 _ => Some(i),

@@ -5,9 +5,9 @@
 //! beside furniture is a place, and after a room that is named outright a
 //! turn is a turn inside it.
 
-use super::lexicon::Role;
 use super::phrases::{Kind, Phrase};
 use super::units::{Unit, UnitKind};
+use super::word_class::Role;
 use crate::record::Direction;
 
 /// The phrases that pick the room.
@@ -40,8 +40,7 @@ pub fn pick(phrases: &[Phrase], units: &[Unit]) -> Option<RoomPick> {
     let first = reader.first()?;
     let last = reader.last_of(first);
     let restated = reader.restated(first, last);
-    let on_the_way =
-        (0..first).filter(|&i| reader.kind(i) == Some(Kind::Part) && reader.is_door(&phrases[i])).collect();
+    let on_the_way = (0..reader.first_thing(first)).filter(|&i| reader.is_on_the_way(i)).collect();
     Some(RoomPick { first, last, restated, on_the_way })
 }
 
@@ -115,7 +114,7 @@ impl Reader<'_> {
     fn is_named(&self, at: usize) -> bool {
         let phrase = &self.phrases[at];
         self.units[phrase.first..phrase.past].iter().any(|unit| match unit.kind {
-            UnitKind::Noun(name, class) => class == super::lexicon::Class::Room && name != "room",
+            UnitKind::Noun(name, class) => class == super::word_class::Class::Room && name != "room",
             _ => false,
         })
     }
@@ -146,9 +145,25 @@ impl Reader<'_> {
         last
     }
 
+    /// The first furniture or object before `past`: what follows it is not on the way to the room.
+    fn first_thing(&self, past: usize) -> usize {
+        let thing = |kind| matches!(kind, Kind::Target | Kind::Landmark | Kind::ObjectMark | Kind::Object);
+        self.phrases[..past].iter().position(|phrase| thing(phrase.kind)).unwrap_or(past)
+    }
+
+    /// A door that is passed, and "straight ahead (and take a left)".
+    fn is_on_the_way(&self, at: usize) -> bool {
+        let phrase = &self.phrases[at];
+        match phrase.kind {
+            Kind::Part => self.is_door(phrase),
+            Kind::Side => self.units[phrase.first].role() == Some(Role::Ahead) && self.side(at).is_none(),
+            _ => false,
+        }
+    }
+
     fn is_door(&self, phrase: &Phrase) -> bool {
         let units = &self.units[phrase.first..phrase.past];
-        units.iter().any(|unit| unit.class() == Some(super::lexicon::Class::Opening))
+        units.iter().any(|unit| unit.class() == Some(super::word_class::Class::Opening))
     }
 
     /// The room's side said again: before the pick, or with "into the room" after it.

@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::lexicon::{Class, Lexicon, Role};
+use super::lexicon::Lexicon;
 use super::tokens::Word;
+use super::word_class::{Class, Role};
 use crate::record::Token;
 
 /// One entry of the lexicon as it stands in the text, or a word it does not have.

@@ -10,6 +10,7 @@ use super::front::{Facing, Hidden, facings, hidden_sides};
 use super::joining::Joining;
 use super::measures::{Measured, measure};
 use super::model::{CATEGORIES, Model, NOTHING};
+use super::objects::sightings;
 use super::patches::patches;
 use super::points::{Points, points};
 use super::segment::{Segment, Segments, segments};
@@ -74,8 +75,9 @@ impl Detector {
         let parts = parts(frame, map, &self.model.joining);
         let pieces = (0_u32..).zip(&parts.segments.pieces);
         let furniture = pieces.filter_map(|(number, piece)| self.piece(&parts, number, piece)).collect();
-        let furniture = without_doubles(furniture).into_iter().map(rounded).collect();
-        View { furniture, objects: Vec::new() }
+        let furniture: Vec<Detection> = without_doubles(furniture).into_iter().map(rounded).collect();
+        let objects = sightings(frame, &furniture);
+        View { furniture, objects }
     }
 
     fn piece(&self, parts: &Parts, number: u32, segment: &Segment) -> Option<Detection> {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::picture_files::{load_color, load_depth};
-use crate::frame::{Intrinsics, RgbdFrame};
+use crate::frame::{Intrinsics, RgbdFrame, steady};
 
 /// A frame whose pictures lie in files.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -75,7 +75,7 @@ impl FrameFiles {
             depth,
             depth_unit_m: self.depth_unit_m,
             intrinsics: Intrinsics { fx: self.fx, fy: self.fy, cx: self.cx, cy: self.cy },
-            world_from_camera: self.world_from_camera,
+            world_from_camera: steady(self.world_from_camera),
         };
         Ok(frame)
     }

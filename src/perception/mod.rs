@@ -8,9 +8,11 @@
 //! completed by what such pieces measure ([`footprint`]). All three are learned
 //! from rooms of our own ([`training`]). [`FurnitureMap`] fuses views.
 //!
-//! The executive sees only [`Eyes`]. [`truth`] is the ideal pair of eyes; it is
-//! the one place here that may look at the scene.
+//! The executive sees only [`Eyes`]. [`truth`], [`boxes`] and [`simulated`] are
+//! the eyes of the simulated robot, from ideal to nothing true; they are the
+//! only places here that may look at the scene.
 
+pub mod boxes;
 mod describe;
 mod detector;
 mod external;
@@ -24,6 +26,7 @@ mod fusion;
 mod joining;
 mod measures;
 mod model;
+pub mod objects;
 mod overlay;
 mod patches;
 mod picture_files;
@@ -31,6 +34,7 @@ mod points;
 mod rectangle;
 mod scenes;
 mod segment;
+pub mod simulated;
 mod stage;
 pub mod training;
 pub mod truth;

@@ -11,7 +11,7 @@ use super::roles::Roles;
 use super::sensed::{Header, Image, Info, Sensed};
 use super::transform_tree::{Placed, TransformTree, Unplaced};
 use super::{Loss, TimedFrame};
-use crate::frame::RgbdFrame;
+use crate::frame::{RgbdFrame, steady};
 use crate::geometry::Pose;
 
 /// Colour and depth further apart than this are not one frame, nanoseconds.
@@ -248,5 +248,5 @@ impl Assembly {
 
 fn rows(isometry: &Isometry3<f64>) -> [[f64; 4]; 4] {
     let matrix: Matrix4<f64> = isometry.to_homogeneous();
-    std::array::from_fn(|row| std::array::from_fn(|column| matrix[(row, column)]))
+    steady(std::array::from_fn(|row| std::array::from_fn(|column| matrix[(row, column)])))
 }

@@ -214,6 +214,26 @@ mod tests {
         assert!(losses[0].contains("no checksum vouches"), "{losses:?}");
     }
 
+    proptest::proptest! {
+        #[test]
+        fn whatever_is_done_to_a_log_reading_it_ends_without_a_panic(
+            changes in proptest::collection::vec((0.0..1.0, proptest::prelude::any::<u8>()), 1..8),
+            cut in 0.0..2.0,
+        ) {
+            let mut bytes = written(2);
+            for (place, byte) in changes {
+                let at = (place * bytes.len() as f64) as usize;
+                bytes[at] = byte;
+            }
+            bytes.truncate((cut * bytes.len() as f64) as usize);
+            for recover in [false, true] {
+                if let Ok(frames) = FrameReader::new(&bytes[..], "log", FrameOptions { recover, ..FrameOptions::default() }) {
+                    frames.for_each(drop);
+                }
+            }
+        }
+    }
+
     #[test]
     fn a_log_without_frames_names_what_it_has() {
         let (_, losses) = read(&written(0), false);

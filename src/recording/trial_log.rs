@@ -78,7 +78,8 @@ impl TrialLog {
         if self.path.last().is_none_or(|last| last.distance_to(pose.position()) >= PATH_SPACING_M) {
             self.path.push(pose);
         }
-        if time_s - self.flushed_s >= FLUSH_S {
+        // Times are sums of steps, so a whole second may fall short by a rounding.
+        if time_s - self.flushed_s >= FLUSH_S - 1e-6 {
             self.flush(time_s);
         }
     }
@@ -155,11 +156,12 @@ impl TrialLog {
         self.put(|log| log.message("/camera/color/image_raw/compressed", time_ns, &image));
     }
 
-    /// A record as a stage wrote it, byte for byte: `/fetch/STAGE`.
+    /// A record as a stage wrote it, byte for byte: `/fetch/STAGE`; handed to the disk at once.
     pub fn record(&mut self, time_s: f64, stage: &str, line: &str) {
         let topic = format!("/fetch/{stage}");
         let schema = RECORD_SCHEMA.as_str();
         self.put(|log| log.json(&topic, "spatial_fetch.Record", schema, nanoseconds(time_s), line));
+        self.put(LogWriter::flush);
     }
 
     /// Ends the log; tells of any write that failed on the way.
@@ -194,7 +196,13 @@ fn open(path: &Path, force: bool) -> Result<File, LogError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recording::records;
+    use crate::frame::{Intrinsics, RgbdFrame};
+    use crate::recording::timed_frame::optical_from_link;
+    use crate::recording::{FrameOptions, FrameReader, records};
+
+    fn link_from_optical() -> Isometry3<f64> {
+        optical_from_link().inverse()
+    }
 
     fn write(path: &Path) {
         let mut log = TrialLog::create(path, true, BTreeMap::new()).expect("created");
@@ -213,6 +221,37 @@ mod tests {
         let path = folder.path().join("log.mcap");
         write(&path);
         assert_eq!(records(&path, "/fetch/drive").expect("readable"), [r#"{"id":"ä","x":1.0}"#]);
+    }
+
+    #[test]
+    fn the_camera_s_frames_come_back_where_they_were_taken() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("log.mcap");
+        let mut log = TrialLog::create(&path, true, BTreeMap::new()).expect("created");
+        let robot = Pose::new(1.0, 2.0, 0.5);
+        let world_from_optical = in_space(robot) * tower_link() * link_from_optical();
+        let matrix = world_from_optical.to_homogeneous();
+        let frame = RgbdFrame {
+            width: 1,
+            height: 1,
+            color: vec![[7, 8, 9]],
+            depth: vec![2345],
+            depth_unit_m: 0.001,
+            intrinsics: Intrinsics { fx: 525.0, fy: 525.0, cx: 0.0, cy: 0.0 },
+            world_from_camera: std::array::from_fn(|row| std::array::from_fn(|column| matrix[(row, column)])),
+        };
+        log.pose(0.6, robot, (0.5, 0.0));
+        log.frame(&TimedFrame::at(0.6, Some(robot), frame.clone()));
+        log.pose(0.7, Pose::new(1.1, 2.0, 0.5), (0.5, 0.0));
+        log.picture(0.7, frame.color_png());
+        log.finish(0.7).expect("finished");
+        let file = File::open(&path).expect("a log");
+        let items: Vec<_> = FrameReader::new(file, "log", FrameOptions::default()).expect("a log").collect();
+        let [Ok(read)] = items.as_slice() else { panic!("{items:?}") };
+        assert_eq!((&read.frame.color, &read.frame.depth, read.stamp_ns), (&frame.color, &frame.depth, 600_000_000));
+        let (got, want) = (read.frame.world_from_camera, frame.world_from_camera);
+        let off = got.iter().flatten().zip(want.iter().flatten()).map(|(a, b)| (a - b).abs());
+        assert!(off.fold(0.0, f64::max) < 2e-9, "{got:?}");
     }
 
     #[test]

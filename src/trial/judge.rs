@@ -30,9 +30,13 @@ pub fn judge(
     distance_m: f64,
 ) -> Verdict {
     let id_at = |point: &Vec2| home.scene.furniture_at(*point).map(|item| item.id.clone());
-    let approached: Vec<String> = approached.iter().filter_map(id_at).collect();
     let holders = holders(home, object);
-    let right_first = approached.first().map(|first| holders.iter().any(|item| item.id == *first));
+    // What is not there is the wrong place, too.
+    let right_first = approached.first().map(|first| {
+        let first = id_at(first);
+        holders.iter().any(|item| Some(&item.id) == first.as_ref())
+    });
+    let approached: Vec<String> = approached.iter().filter_map(id_at).collect();
     let shortest = holders.iter().filter_map(|item| shortest_way(home, item)).fold(f64::INFINITY, f64::min);
     let spl = if outcome == Outcome::Found && shortest.is_finite() {
         Some(shortest / shortest.max(distance_m).max(1e-9))

@@ -4,6 +4,7 @@
 //! executive gets the room map, the base and the eyes; the judge gets the
 //! scene.
 
+mod eyes;
 mod home;
 mod judge;
 mod outputs;

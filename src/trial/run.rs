@@ -1,12 +1,11 @@
 //! Runs one plan in a home.
 
+use super::eyes::{eyes, is_recognisable};
 use super::judge::judge;
-use super::{Home, Perception, Settings};
-use crate::behavior::{Executive, Watcher};
+use super::{Home, Settings};
+use crate::behavior::{Executive, Report, Watcher};
 use crate::geometry::{Pose, Vec2};
-use crate::perception::Eyes;
-use crate::perception::truth::TruthEyes;
-use crate::record::{Action, PathPoint, Plan, Trial};
+use crate::record::{Action, Outcome, PathPoint, Plan, Trial};
 use crate::robot::MobileBase;
 use crate::robot::simulated::{Obstacles, SimulatedBase};
 
@@ -27,12 +26,11 @@ pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: 
     let obstacles = Obstacles::new(&home.map, &home.scene);
     let mut base = SimulatedBase::with_noise(obstacles, home.map.start, noise, settings.seed, stream);
     let truth = base.truth();
-    let mut eyes: Box<dyn Eyes> = match settings.perception {
-        Perception::Truth => Box::new(TruthEyes::new(&home.map, home.shared_scene(), base.truth())),
-    };
-    let report = Executive::new(&home.map, &mut base, eyes.as_mut(), watcher, settings.options).run(plan);
+    let mut eyes = eyes(home, settings, stream, base.truth());
+    let mut report = Executive::new(&home.map, &mut base, eyes.as_mut(), watcher, settings.options).run(plan);
     let duration_s = base.time_s();
     let truth = truth.borrow().clone();
+    confirm(&mut report, home, object_of(plan), truth.pose);
     let verdict = judge(home, object_of(plan), &report.approached, report.found_at, report.outcome, truth.distance_m);
     let mut path = report.journal.path;
     path.push(PathPoint::new(duration_s, report.pose));
@@ -53,6 +51,14 @@ pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: 
         path,
     };
     Run { trial, final_pose: truth.pose, found_at: report.found_at }
+}
+
+/// What the robot took for the object need not be it: found is what truly is recognisable in the last picture.
+fn confirm(report: &mut Report, home: &Home, object: Option<&str>, pose: Pose) {
+    if report.outcome == Outcome::Found && !is_recognisable(home, object, pose) {
+        report.outcome = Outcome::NotFound;
+        report.why = format!("mistaken: {}", report.why);
+    }
 }
 
 fn rounded(pose: Pose) -> Pose {

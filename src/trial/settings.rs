@@ -2,6 +2,7 @@
 
 use crate::behavior::Options;
 use crate::world::Noise;
+use crate::world::camera::Kinect;
 
 /// Everything about a trial that is neither home nor plan.
 #[derive(Clone, Copy, Debug, Default)]
@@ -10,6 +11,8 @@ pub struct Settings {
     pub options: Options,
     /// What the robot's eyes report.
     pub perception: Perception,
+    /// The simulated camera: its faults and the light.
+    pub kinect: Kinect,
     /// How imperfect the robot is.
     pub noise: NoiseLevel,
     /// Seed of everything random.
@@ -22,6 +25,12 @@ pub enum Perception {
     /// Ideal detections of what a camera would show
     #[default]
     Truth,
+    /// True boxes with a sensor's noise, misses and confusions
+    Boxes,
+    /// Rendered Kinect frames truly divided among the items, our classifier
+    Masks,
+    /// Rendered Kinect frames, nothing true
+    Camera,
 }
 
 /// How imperfect the simulated robot's wheels, sonars, compass and start are, against what its world says.

@@ -17,7 +17,7 @@ pub mod training;
 
 pub use check::check;
 pub use error::WorldError;
-pub use furniture::{CATEGORIES, OBJECTS, Shape, Size, category, object};
+pub use furniture::{CATEGORIES, OBJECTS, Shape, Size, SmallObject, category, object};
 pub use map::{Door, Room, RoomMap};
 pub use noise::Noise;
 pub use scene::{Item, PlacedObject, Scene};

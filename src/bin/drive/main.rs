@@ -7,9 +7,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, Failure, FromLog, Intake, Program};
+use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, FromLog, Intake, Program};
 use spatial_fetch::record::Trial;
-use spatial_fetch::trial::{Driver, Home, NoiseLevel, Perception, Settings};
+use spatial_fetch::trial::{Driver, Home, NoiseLevel, Settings};
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
 ///
@@ -27,12 +27,11 @@ struct Arguments {
     /// Furniture and objects of the simulated home [default: the apartment as first furnished]
     #[arg(long, value_name = "FILE")]
     scene: Option<PathBuf>,
-    /// What the robot's eyes report
-    #[arg(long, value_enum, default_value = "truth")]
-    perception: Perception,
     /// How imperfect the robot's wheels, sonars, compass and start are
     #[arg(long, value_enum, default_value = "default")]
     noise: NoiseLevel,
+    #[command(flatten)]
+    eyes: EyeArguments,
     #[command(flatten)]
     executive: executive::Arguments,
     #[command(flatten)]
@@ -59,7 +58,8 @@ impl Program for Arguments {
             Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
         let settings = Settings {
             options: self.executive.options(),
-            perception: self.perception,
+            perception: self.eyes.perception,
+            kinect: self.eyes.kinect(),
             noise: self.noise,
             seed: self.common.seed,
         };

@@ -1,13 +1,12 @@
 //! `evaluate behavior`: the paper's Experiments 2 and 3.
 
 use std::path::PathBuf;
+use std::sync::Mutex;
 
 use clap::Args;
-use spatial_fetch::behavior::Options;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Format, Progress};
 use spatial_fetch::evaluation::behavior::{
-    BehaviorReport, Condition, ConditionReport, Fall, Selection, Source, behavior_tables, drive_all, explain,
-    instructions,
+    BehaviorReport, Selection, Source, Study, behavior_tables, conditions, instructions,
 };
 use spatial_fetch::trial::{Home, NoiseLevel, Perception, Settings};
 use spatial_fetch::world::Scene;
@@ -52,39 +51,22 @@ impl Arguments {
     pub fn run(self) -> Result<Exit, Failure> {
         let gold = cli::load_gold(self.gold.as_deref())?;
         let homes = self.homes()?;
-        let said = instructions(&gold, &homes[0].1.map, self.instructions, self.select);
-        if said.is_empty() {
+        let instructions = instructions(&gold, &homes[0].1.map, self.instructions, self.select);
+        if instructions.is_empty() {
             return Err(Failure::Failed("no description says what it means; --gold needs labels".to_string()));
         }
-        let conditions = self.conditions(&homes);
-        let settings =
-            Settings { perception: self.perception, noise: self.noise, seed: self.common.seed, ..Settings::default() };
-        let progress = Progress::new(&self.common, Some(self.seeds * (said.len() * conditions.len()) as u64));
-        let progress = std::sync::Mutex::new(progress);
-        let done = || progress.lock().map(|mut progress| progress.add(1)).unwrap_or_default();
-        let mut report = BehaviorReport {
-            instructions: said.len(),
-            source: self.source(),
+        let seed = self.common.seed;
+        let study = Study {
+            instructions,
+            conditions: conditions(&homes, self.ablations),
+            placements: homes.len(),
+            settings: Settings { perception: self.perception, noise: self.noise, seed, ..Settings::default() },
             seeds: self.seeds,
-            conditions: Vec::new(),
-            fall: None,
-            explanations: Vec::new(),
+            explained: self.explain,
         };
-        let mut placements = Vec::new();
-        for (i, condition) in conditions.iter().enumerate() {
-            let scores =
-                cli::on_threads(self.common.jobs, || drive_all(&said, condition, &settings, self.seeds, &done))?;
-            report.conditions.push(ConditionReport::new(&condition.name, &said, &scores));
-            if i < homes.len() {
-                if self.explain {
-                    report.explanations.extend(explain(&condition.name, condition.home, &said, &scores));
-                }
-                placements.push(scores);
-            }
-        }
-        if let [first, second] = placements.as_slice() {
-            report.fall = Fall::between(first, second);
-        }
+        let progress = Mutex::new(Progress::new(&self.common, Some(study.trials())));
+        let done = || progress.lock().map(|mut progress| progress.add(1)).unwrap_or_default();
+        let report = cli::on_threads(self.common.jobs, || study.run(&self.source(), &done))?;
         drop(progress);
         self.write(&report)
     }
@@ -97,24 +79,6 @@ impl Arguments {
         }
         let moved = Home { scene: Scene::apartment_modified(), ..home.clone() };
         Ok(vec![("Table II: as first furnished", home), ("Table III: furniture moved", moved)])
-    }
-
-    /// Each placement, then blind, then what `--ablations` adds, in the first.
-    fn conditions<'h>(&self, homes: &'h [(&'static str, Home)]) -> Vec<Condition<'h>> {
-        let usual = Options::default();
-        let placements = homes.iter().map(|(name, home)| Condition { name: (*name).to_string(), home, options: usual });
-        let blind = ("blind: nearest table first", Options { blind: true, ..usual });
-        let ablations = [
-            ("first pair only", Options { first_pair_only: true, ..usual }),
-            ("one frame only", Options { one_frame: true, ..usual }),
-            ("no fall-back", Options { no_fallback: true, ..usual }),
-            ("no localization", Options { no_localization: true, ..usual }),
-            ("no glance", Options { no_glance: true, ..usual }),
-        ];
-        let shown = if self.ablations { ablations.len() } else { 0 };
-        let others = [blind].into_iter().chain(ablations.into_iter().take(shown));
-        let others = others.map(|(name, options)| Condition { name: name.to_string(), home: &homes[0].1, options });
-        placements.chain(others).collect()
     }
 
     fn source(&self) -> String {

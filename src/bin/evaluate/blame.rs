@@ -41,7 +41,7 @@ impl Arguments {
             Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
         let settings = Settings { perception: self.perception, seed: self.common.seed, ..Settings::default() };
         let blames = cli::on_threads(self.common.jobs, || blame(&gold, &home, &settings, self.measure, self.wanted))?;
-        cli::write_report(&self.common, &blames, blame_text)?;
+        cli::write_report(&self.common, &blames, || blame_text(&blames))?;
         Ok(Exit::Done)
     }
 }

@@ -34,7 +34,7 @@ impl Arguments {
     }
 
     fn report(&self, comparison: &Comparison) -> Result<Exit, Failure> {
-        cli::write_report(&self.common, comparison, comparison_text)?;
+        cli::write_report(&self.common, comparison, || comparison_text(comparison))?;
         if self.fail_on_regression && comparison.regressed() {
             let (broken, missing) = (comparison.broken.len(), comparison.missing.len());
             return Err(Failure::Failed(format!("{broken} records broken, {missing} missing")));

@@ -2,8 +2,11 @@
 
 mod behavior;
 mod blame;
+mod chunking;
 mod compare;
 mod frames;
+mod grounding;
+mod import;
 mod merge;
 mod paper;
 mod perception;
@@ -34,6 +37,12 @@ struct Arguments {
 enum What {
     /// Score records from files or standard input
     Score(score::Arguments),
+    /// Chunk corpora and score the trees
+    Chunking(chunking::Arguments),
+    /// Ground corpora by both methods and score the meanings
+    Grounding(grounding::Arguments),
+    /// Read the authors' public treebank and groundings into this project's format
+    Import(import::Arguments),
     /// Run a corpus end to end, from text to trial, and score it
     Run(run::Arguments),
     /// Run the paper's three experiments: its figures beside ours
@@ -62,6 +71,9 @@ impl Program for Arguments {
     fn common(&self) -> &Common {
         match &self.what {
             What::Score(arguments) => &arguments.common,
+            What::Chunking(arguments) => &arguments.common,
+            What::Grounding(arguments) => &arguments.common,
+            What::Import(arguments) => &arguments.common,
             What::Run(arguments) => &arguments.common,
             What::Paper(arguments) => &arguments.common,
             What::Blame(arguments) => &arguments.common,
@@ -89,6 +101,9 @@ impl Program for Arguments {
     fn run(self) -> Result<Exit, Failure> {
         match self.what {
             What::Score(arguments) => arguments.run(),
+            What::Chunking(arguments) => arguments.run(),
+            What::Grounding(arguments) => arguments.run(),
+            What::Import(arguments) => arguments.run(),
             What::Run(arguments) => arguments.run(),
             What::Paper(arguments) => arguments.run(),
             What::Blame(arguments) => arguments.run(),

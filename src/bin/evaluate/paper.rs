@@ -51,7 +51,7 @@ impl Arguments {
         if self.csv {
             cli::write_text(&self.common, &paper_csv(result))?;
         } else {
-            cli::write_report(&self.common, result, paper_text)?;
+            cli::write_report(&self.common, result, || paper_text(result))?;
         }
         Ok(Exit::Done)
     }

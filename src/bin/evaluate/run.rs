@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use spatial_fetch::behavior::Options;
-use spatial_fetch::cli::{self, Common, Exit, Failure, Table};
+use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, Table};
 use spatial_fetch::evaluation::{run_corpus, score};
 use spatial_fetch::trial::{Home, Settings};
 
@@ -23,6 +23,8 @@ pub struct Arguments {
     #[arg(long)]
     blind: bool,
     #[command(flatten)]
+    eyes: EyeArguments,
+    #[command(flatten)]
     pub common: Common,
 }
 
@@ -32,7 +34,9 @@ impl Arguments {
         let home =
             Home::load(self.map.as_deref(), self.scene.as_deref()).map_err(|e| Failure::Failed(e.to_string()))?;
         let options = Options { blind: self.blind, ..Options::default() };
-        let lines = run_corpus(&gold, &home, &Settings { options, seed: self.common.seed, ..Settings::default() });
+        let (perception, kinect) = (self.eyes.perception, self.eyes.kinect());
+        let settings = Settings { options, perception, kinect, seed: self.common.seed, ..Settings::default() };
+        let lines = run_corpus(&gold, &home, &settings);
         let scores = score(&gold, &lines).map_err(Failure::Failed)?;
         let title = format!("{} descriptions, {} records", gold.len(), lines.len());
         cli::write_scores(&self.common, &Table { title, scores })

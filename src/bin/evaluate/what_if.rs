@@ -47,7 +47,7 @@ impl Arguments {
         }
         let settings = Settings { seed: self.common.seed, ..Settings::default() };
         let found = cli::on_threads(self.common.jobs, || what_if(&id, &text, &home, &settings, &self.piece))?;
-        cli::write_report(&self.common, &found, what_if_text)?;
+        cli::write_report(&self.common, &found, || what_if_text(&found))?;
         Ok(Exit::Done)
     }
 }

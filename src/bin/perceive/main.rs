@@ -82,16 +82,20 @@ impl Program for Arguments {
     }
     fn run(self) -> Result<Exit, Failure> {
         let perceiver = self.perceiver()?;
+        let input = FrameInput::open(&self.common.files, &self.log)?;
         if self.fuse {
-            return fuse::run(&self.common, &perceiver);
+            return fuse::run(&self.common, &perceiver, input);
         }
-        match FrameInput::open(&self.common.files, &self.log)? {
+        match input {
             FrameInput::Lines(mut lines) => {
                 cli::run_filter_on(Self::NAME, &self.common, &mut lines, Intake::Records, &perceiver)
             }
-            FrameInput::Logs(logs) => cli::run_frames(Self::NAME, &self.common, logs, &perceiver, &|frame, record| {
-                perceiver.see(frame, record)
-            }),
+            FrameInput::Logs(mut logs) => {
+                let logs = logs.as_mut();
+                cli::run_frames(Self::NAME, &self.common, logs, &perceiver, &|frame, record| {
+                    perceiver.see(frame, record)
+                })
+            }
         }
     }
 }

@@ -27,20 +27,24 @@ pub(super) fn corners(levels: &[u8], width: usize) -> Vec<Corner> {
 /// The corners on the line between two rows.
 fn corners_between(above: &[u8], below: &[u8], y: i32, found: &mut Vec<Corner>) {
     let mut before = 0;
-    let chunks = above.chunks(CHUNK).zip(below.chunks(CHUNK));
-    for (start, (above, below)) in (0..).step_by(CHUNK).zip(chunks) {
-        // Most of an image repeats the row above.
-        if before == 0 && above == below {
-            continue;
-        }
-        for (x, (up, down)) in (start..).zip(above.iter().zip(below)) {
+    let mut compare = |start: usize, above: &[u8], below: &[u8], before: &mut i32| {
+        for (x, (up, down)) in (start as i32..).zip(above.iter().zip(below)) {
             let difference = i32::from(*up) - i32::from(*down);
-            if difference != before {
-                found.push(Corner { x, y, weight: difference - before });
-                before = difference;
+            if difference != *before {
+                found.push(Corner { x, y, weight: difference - *before });
+                *before = difference;
             }
         }
+    };
+    let ((above_chunks, above_rest), (below_chunks, below_rest)) =
+        (above.as_chunks::<CHUNK>(), below.as_chunks::<CHUNK>());
+    for (i, (above, below)) in above_chunks.iter().zip(below_chunks).enumerate() {
+        // Most of an image repeats the row above.
+        if before != 0 || above != below {
+            compare(i * CHUNK, above, below, &mut before);
+        }
     }
+    compare(above.len() - above_rest.len(), above_rest, below_rest, &mut before);
     if before != 0 {
         found.push(Corner { x: above.len() as i32, y, weight: -before });
     }

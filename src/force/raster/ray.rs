@@ -12,6 +12,8 @@ use super::piece::Piece;
 
 /// Columns worked on at a time.
 const BLOCK: usize = 64;
+/// Columns side by side in one instruction.
+const LANES: usize = 8;
 /// Before this column pieces are long for their distance, and integrate in closed form.
 const NEAR_COLUMNS: i32 = 8;
 
@@ -25,11 +27,20 @@ struct Pieces {
 
 /// C at the six nodes of each column: three on either side of it.
 #[derive(Clone, Debug)]
-struct Nodes {
-    near: [[f64; BLOCK]; 3],
-    far: [[f64; BLOCK]; 3],
+struct Nodes<T> {
+    near: [[T; BLOCK]; 3],
+    far: [[T; BLOCK]; 3],
     /// Where the ray enters the column, from the first node's line, 0 to 1.
     entry: [f64; BLOCK],
+    /// The place of the first node in the table.
+    place: [i64; BLOCK],
+}
+
+impl<T: Count> Nodes<T> {
+    fn new() -> Self {
+        let nothing = [[T::default(); BLOCK]; 3];
+        Self { near: nothing, far: nothing, entry: [0.0; BLOCK], place: [0; BLOCK] }
+    }
 }
 
 /// The way of a ray through the table.
@@ -79,7 +90,6 @@ fn columns(slope: f64, reach: (i32, i32), side: (i32, i32)) -> (i32, i32) {
 pub(super) struct Rays {
     forces: Vec<Force>,
     sums: Vec<f64>,
-    nodes: Nodes,
     pieces: [Pieces; 2],
 }
 
@@ -88,8 +98,7 @@ impl Rays {
     pub(super) fn new(forces: Vec<Force>) -> Self {
         let zeros = [0.0; BLOCK];
         let pieces = || Pieces { middle: [1.0; BLOCK], half: zeros, q: [zeros; 3] };
-        let nodes = Nodes { near: [zeros; 3], far: [zeros; 3], entry: zeros };
-        Self { sums: vec![0.0; forces.len()], forces, nodes, pieces: [pieces(), pieces()] }
+        Self { sums: vec![0.0; forces.len()], forces, pieces: [pieces(), pieces()] }
     }
 
     /// The resultant of each force in one direction, in units of cells.
@@ -106,11 +115,13 @@ impl Rays {
 
     fn follow<T: Count>(&mut self, table: &[T], way: Way) {
         let (mut from, end) = way.columns;
+        let mut nodes = Nodes::new();
         while from < end {
             let to = if from < NEAR_COLUMNS { NEAR_COLUMNS.min(end) } else { (from + BLOCK as i32).min(end) };
             let count = (to - from) as usize;
-            read_nodes(table, way, from, count, &mut self.nodes);
-            cut(&self.nodes, way, from, &mut self.pieces);
+            enter(way, from, count, &mut nodes);
+            read_nodes(table, way, count, &mut nodes);
+            cut(&nodes, way, from, count, &mut self.pieces);
             if from < NEAR_COLUMNS {
                 self.add_near(count)
             } else {
@@ -146,42 +157,55 @@ fn one_by_one(pieces: &[Pieces; 2], count: usize, force: Force) -> f64 {
     (0..count).map(|i| piece(&pieces[0], i).force(force) + piece(&pieces[1], i).force(force)).sum()
 }
 
-/// Reads C at the nodes about the ray in the columns from `from` on; what is left of the block becomes zero.
-fn read_nodes<T: Count>(table: &[T], way: Way, from: i32, count: usize, nodes: &mut Nodes) {
+/// Where the ray enters the columns from `from` on.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn enter<T>(way: Way, from: i32, count: usize, nodes: &mut Nodes<T>) {
     let slope = way.cross / way.main;
-    for i in 0..count {
-        let column = from + i as i32;
-        let height = f64::from(column) * slope;
-        let line = height as i64;
-        nodes.entry[i] = height - line as f64;
-        let near = (way.origin + i64::from(column) * way.main_step + line * way.cross_step) as usize;
-        let (cross, main) = (way.cross_step as usize, way.main_step as usize);
-        for k in 0..3 {
-            // Steps may be negative: they wrap, and so does the sum.
-            let place = near.wrapping_add(cross.wrapping_mul(k));
-            nodes.near[k][i] = table[place].value();
-            nodes.far[k][i] = table[place.wrapping_add(main)].value();
+    let (entries, places) = (nodes.entry.as_chunks_mut::<LANES>().0, nodes.place.as_chunks_mut::<LANES>().0);
+    for (lane, (entries, places)) in entries.iter_mut().zip(places).take(count.div_ceil(LANES)).enumerate() {
+        let first = i64::from(from) + (lane * LANES) as i64;
+        for (i, (entry, place)) in entries.iter_mut().zip(places).enumerate() {
+            let column = first + i as i64;
+            let height = column as f64 * slope;
+            let line = height.floor();
+            *entry = height - line;
+            *place = way.origin + column * way.main_step + line as i64 * way.cross_step;
         }
     }
+}
+
+/// Reads C at the nodes about the ray; what is left of the last lanes becomes zero.
+fn read_nodes<T: Count>(table: &[T], way: Way, count: usize, nodes: &mut Nodes<T>) {
+    let (cross, main) = (way.cross_step as usize, way.main_step as usize);
+    let padded = count.next_multiple_of(LANES);
     for k in 0..3 {
-        nodes.near[k][count..].fill(0.0);
-        nodes.far[k][count..].fill(0.0);
+        // Steps may be negative: they wrap, and so does the sum.
+        let aside = cross.wrapping_mul(k);
+        for (i, place) in nodes.place[..count].iter().enumerate() {
+            let place = (*place as usize).wrapping_add(aside);
+            nodes.near[k][i] = table[place];
+            nodes.far[k][i] = table[place.wrapping_add(main)];
+        }
+        nodes.near[k][count..padded].fill(T::default());
+        nodes.far[k][count..padded].fill(T::default());
     }
 }
 
 /// Cuts the columns of a block into pieces, before and after the line of nodes that the ray crosses.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn cut(nodes: &Nodes, way: Way, from: i32, pieces: &mut [Pieces; 2]) {
+fn cut<T: Count>(nodes: &Nodes<T>, way: Way, from: i32, count: usize, pieces: &mut [Pieces; 2]) {
     let slope = way.cross / way.main;
     let per_main = 1.0 / way.main;
     let [before, after] = pieces;
-    for i in 0..BLOCK {
+    // Whole lanes, so that none is left over to be done one by one.
+    for i in 0..count.next_multiple_of(LANES).min(BLOCK) {
         let entry = nodes.entry[i];
         // Where the ray crosses the next line of nodes, as a share of the column.
         let crossing = ((1.0 - entry) / slope).clamp(0.0, 1.0);
         let column = f64::from(from) + i as f64;
-        let lower = [nodes.near[0][i], nodes.far[0][i], nodes.near[1][i], nodes.far[1][i]];
-        let upper = [nodes.near[1][i], nodes.far[1][i], nodes.near[2][i], nodes.far[2][i]];
+        let near = (nodes.near[0][i].value(), nodes.near[1][i].value(), nodes.near[2][i].value());
+        let far = (nodes.far[0][i].value(), nodes.far[1][i].value(), nodes.far[2][i].value());
+        let (lower, upper) = ([near.0, far.0, near.1, far.1], [near.1, far.1, near.2, far.2]);
         let middle = 0.5 * crossing;
         before.middle[i] = (column + middle) * per_main;
         before.half[i] = middle * per_main;
@@ -204,17 +228,36 @@ fn quadratic([c00, c10, c01, c11]: [f64; 4], x: f64, y: f64, main: f64, cross: f
     (c00 + rise_x * x + by_y * y, rise_x * main + rise_y * cross, twist * main * cross)
 }
 
-const LANES: usize = 8;
+type Lanes = [f64; LANES];
+
+impl Pieces {
+    /// The first `count` pieces, eight by eight: middles, halves and the coefficients that are asked for.
+    #[inline(always)]
+    fn lanes<const N: usize>(
+        &self,
+        count: usize,
+        which: [usize; N],
+    ) -> impl Iterator<Item = (&Lanes, &Lanes, [&Lanes; N])> {
+        let q = which.map(|k| self.q[k].as_chunks().0);
+        let (middle, half) = (self.middle.as_chunks().0, self.half.as_chunks().0);
+        (0..count.div_ceil(LANES)).map(move |i| (&middle[i], &half[i], q.map(|q| &q[i])))
+    }
+}
+
+#[inline(always)]
+fn add(sums: &mut Lanes, term: impl Fn(usize) -> f64) {
+    let terms: Lanes = std::array::from_fn(term);
+    for (sum, term) in sums.iter_mut().zip(terms) {
+        *sum += term;
+    }
+}
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn constant(pieces: &[Pieces; 2], count: usize) -> f64 {
     let mut sums = [0.0; LANES];
     for p in pieces {
-        for start in (0..count.next_multiple_of(LANES)).step_by(LANES) {
-            for (i, sum) in sums.iter_mut().enumerate() {
-                let (half, q0, q2) = (p.half[start + i], p.q[0][start + i], p.q[2][start + i]);
-                *sum += 2.0 * half * (q0 + q2 * (half * half * (1.0 / 3.0)));
-            }
+        for (_, half, [q0, q2]) in p.lanes(count, [0, 2]) {
+            add(&mut sums, |i| 2.0 * half[i] * (q0[i] + q2[i] * (half[i] * half[i] * (1.0 / 3.0))));
         }
     }
     sums.iter().sum()
@@ -225,18 +268,16 @@ fn constant(pieces: &[Pieces; 2], count: usize) -> f64 {
 fn gravitational(pieces: &[Pieces; 2], count: usize) -> f64 {
     let mut sums = [0.0; LANES];
     for p in pieces {
-        for start in (0..count.next_multiple_of(LANES)).step_by(LANES) {
-            for (i, sum) in sums.iter_mut().enumerate() {
-                let (middle, half) = (p.middle[start + i], p.half[start + i]);
-                let inverse = 1.0 / middle;
-                let x = half * inverse;
+        for (middle, half, [q0, q1, q2]) in p.lanes(count, [0, 1, 2]) {
+            add(&mut sums, |i| {
+                let inverse = 1.0 / middle[i];
+                let x = half[i] * inverse;
                 let z = x * x;
                 let whole = 1.0 + z * (1.0 + z * (1.0 + z * (1.0 + z * (1.0 + z * (1.0 + z)))));
                 let first = z * (2.0 / 3.0 + z * (4.0 / 5.0 + z * (6.0 / 7.0 + z * (8.0 / 9.0 + z * (10.0 / 11.0)))));
                 let second = z * (1.0 / 3.0 + z * (3.0 / 5.0 + z * (5.0 / 7.0 + z * (7.0 / 9.0 + z * (9.0 / 11.0)))));
-                let (q0, q1, q2) = (p.q[0][start + i], p.q[1][start + i], p.q[2][start + i]);
-                *sum += 2.0 * x * (q0 * whole * inverse - q1 * first + q2 * second * middle);
-            }
+                2.0 * x * (q0[i] * whole * inverse - q1[i] * first + q2[i] * second * middle[i])
+            });
         }
     }
     sums.iter().sum()

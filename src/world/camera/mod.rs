@@ -91,6 +91,11 @@ impl Camera {
         Some((column, row, depth))
     }
 
+    /// Camera optical frame (x right, y down, z ahead) to world, 4 × 4 by rows, of a robot at `pose`.
+    pub fn world_from_camera(&self, pose: Pose) -> [[f64; 4]; 4] {
+        raster::View::new(*self, pose).world_from_camera()
+    }
+
     /// Whether a pixel lies in the picture.
     pub fn shows(&self, column: f64, row: f64) -> bool {
         (-0.5..self.width as f64 - 0.5).contains(&column) && (-0.5..self.height as f64 - 0.5).contains(&row)

@@ -1,0 +1,338 @@
+//! Small objects on table tops: by height where the depth shows it, by colour contrast where it cannot.
+//!
+//! A phone 9 mm thick lies under the Kinect's depth noise from 1.5 m on; its
+//! colour against the plate's does not. What an object is, is told by holding
+//! its size, height and colour against the usual ones of [`OBJECTS`].
+
+use std::collections::HashMap;
+
+use super::ObjectSighting;
+use crate::frame::RgbdFrame;
+use crate::geometry::{Polygon, Vec2, vec2};
+use crate::record::Detection;
+use crate::world::{OBJECTS, SmallObject};
+
+/// On which furniture things are looked for.
+const HOLDERS: [&str; 9] =
+    ["table", "dinner_table", "coffee_table", "desk", "nightstand", "dresser", "cabinet", "tv_stand", "stool"];
+/// What is this likely to be one of them is looked at: a statue on a small table passes for a chair's back.
+const LIKELY: f64 = 0.08;
+/// Plates lie between these heights, metres.
+const PLATE_M: (f64, f64) = (0.25, 1.15);
+/// Bins of the plate's height, metres.
+const BIN_M: f64 = 0.01;
+/// The rim of a plate is left out, metres: its pixels mix with what is behind.
+const RIM_M: f64 = 0.035;
+/// Nothing taller stands on a table, metres.
+const TALLEST_M: f64 = 0.6;
+/// Colours so far from the plate's, summed over the channels, are something on it.
+const CONTRAST: i32 = 75;
+/// Fewer pixels are noise.
+const FEWEST_PIXELS: usize = 14;
+/// What is told for sure: pixels, distance from the picture's edge, metres from the camera.
+const RECOGNISABLE: (usize, usize, f64) = (45, 3, 2.1);
+/// What fits no usual object better than this is not named for sure.
+const WORST_FIT: f64 = 14.0;
+
+/// Where the pixels of a frame lie in the world.
+struct Geometry<'f> {
+    frame: &'f RgbdFrame,
+}
+
+impl Geometry<'_> {
+    /// The ray of a pixel: world direction per metre of depth.
+    fn ray(&self, column: usize, row: usize) -> [f64; 3] {
+        let i = &self.frame.intrinsics;
+        let (x, y) = ((column as f64 - i.cx) / i.fx, (row as f64 - i.cy) / i.fy);
+        let m = &self.frame.world_from_camera;
+        [0, 1, 2].map(|k| m[k][0] * x + m[k][1] * y + m[k][2])
+    }
+
+    fn eye(&self) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.frame.world_from_camera[k][3])
+    }
+
+    fn point(&self, column: usize, row: usize) -> Option<[f64; 3]> {
+        let depth = self.frame.depth[row * self.frame.width + column];
+        if depth == 0 {
+            return None;
+        }
+        let (eye, ray, z) = (self.eye(), self.ray(column, row), f64::from(depth) * self.frame.depth_unit_m);
+        Some([0, 1, 2].map(|k| eye[k] + ray[k] * z))
+    }
+
+    /// Column and row of a point; nothing behind the camera.
+    fn pixel(&self, point: [f64; 3]) -> Option<(f64, f64)> {
+        let (m, eye) = (&self.frame.world_from_camera, self.eye());
+        let d = [0, 1, 2].map(|k| point[k] - eye[k]);
+        let [x, y, z] = [0, 1, 2].map(|axis| (0..3).map(|k| m[k][axis] * d[k]).sum::<f64>());
+        let i = &self.frame.intrinsics;
+        (z > 0.2).then(|| (i.cx + i.fx * x / z, i.cy + i.fy * y / z))
+    }
+}
+
+/// One pixel that shows something on a plate.
+#[derive(Clone, Copy)]
+struct Spot {
+    column: usize,
+    row: usize,
+    at: Vec2,
+    /// Above the plate, metres; 0 where only the colour tells.
+    height: f64,
+}
+
+/// The objects on the tops of `furniture` in a frame with colour.
+pub fn sightings(frame: &RgbdFrame, furniture: &[Detection]) -> Vec<ObjectSighting> {
+    if frame.color.len() != frame.depth.len() {
+        return Vec::new();
+    }
+    let mut found: Vec<ObjectSighting> = Vec::new();
+    for detection in furniture.iter().filter(|detection| may_hold_things(detection)) {
+        for sighting in on_top(frame, detection) {
+            let near = |other: &ObjectSighting| (vec2(other.x, other.y) - vec2(sighting.x, sighting.y)).norm() < 0.1;
+            if !found.iter().any(near) {
+                found.push(sighting);
+            }
+        }
+    }
+    found
+}
+
+/// Whether it may be a table or a chest: on beds and seats cushions would pass for things.
+fn may_hold_things(detection: &Detection) -> bool {
+    let share = |name: &str| detection.scores.get(name).copied().unwrap_or(0.0);
+    HOLDERS.contains(&detection.category.as_str()) || HOLDERS.iter().map(|name| share(name)).sum::<f64>() > LIKELY
+}
+
+fn on_top(frame: &RgbdFrame, detection: &Detection) -> Vec<ObjectSighting> {
+    let geometry = Geometry { frame };
+    let footprint = Polygon::new(detection.footprint.iter().map(|&[x, y]| vec2(x, y)).collect());
+    let Some(window) = window(&geometry, &footprint) else { return Vec::new() };
+    let points = points_over(&geometry, &footprint, window);
+    let Some(plate) = plate_height(&points) else { return Vec::new() };
+    let spots = spots(frame, &footprint, &points, plate);
+    blobs(spots, frame.width).iter().filter_map(|blob| sighting(&geometry, blob)).collect()
+}
+
+/// Columns and rows in which a footprint can show, from the floor to the tallest object.
+fn window(geometry: &Geometry, footprint: &Polygon) -> Option<[usize; 4]> {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for corner in footprint.corners() {
+        for z in [PLATE_M.0, PLATE_M.1 + TALLEST_M] {
+            let (column, row) = geometry.pixel([corner.x, corner.y, z])?;
+            low = [low[0].min(column), low[1].min(row)];
+            high = [high[0].max(column), high[1].max(row)];
+        }
+    }
+    let (width, height) = (geometry.frame.width as f64, geometry.frame.height as f64);
+    let clamped = [low[0].max(0.0), low[1].max(0.0), (high[0] + 1.0).min(width), (high[1] + 1.0).min(height)];
+    (footprint.corners().len() > 2 && clamped[0] < clamped[2] && clamped[1] < clamped[3])
+        .then(|| clamped.map(|v| v as usize))
+}
+
+/// The points in the window that lie over the footprint less its rim, with their pixels and depths.
+fn points_over(
+    geometry: &Geometry,
+    footprint: &Polygon,
+    [left, top, right, low]: [usize; 4],
+) -> Vec<(usize, usize, [f64; 3], f64)> {
+    let mut points = Vec::new();
+    for row in top..low {
+        for column in left..right {
+            let Some(point) = geometry.point(column, row) else { continue };
+            if point[2] > PLATE_M.0 && point[2] < PLATE_M.1 + TALLEST_M && inside(footprint, vec2(point[0], point[1])) {
+                let depth = f64::from(geometry.frame.depth[row * geometry.frame.width + column]);
+                points.push((column, row, point, depth * geometry.frame.depth_unit_m));
+            }
+        }
+    }
+    points
+}
+
+/// Within a convex outline by more than the rim.
+fn inside(footprint: &Polygon, point: Vec2) -> bool {
+    footprint.edges().all(|(a, b)| {
+        let along = (b - a).normalize();
+        along.x * (point.y - a.y) - along.y * (point.x - a.x) > RIM_M
+    })
+}
+
+/// The height at which most points lie.
+fn plate_height(points: &[(usize, usize, [f64; 3], f64)]) -> Option<f64> {
+    let bins = ((PLATE_M.1 - PLATE_M.0) / BIN_M) as usize;
+    let mut counts = vec![0_usize; bins + 2];
+    for (_, _, point, _) in points {
+        let bin = ((point[2] - PLATE_M.0) / BIN_M) as usize;
+        if bin < bins {
+            counts[bin] += 1;
+        }
+    }
+    let best = (1..=bins).max_by_key(|&i| counts[i - 1] + counts[i] + counts[i + 1])?;
+    let near = |z: f64| (z - PLATE_M.0 - (best as f64 + 0.5) * BIN_M).abs() < 1.5 * BIN_M;
+    let mut heights: Vec<f64> = points.iter().map(|p| p.2[2]).filter(|&z| near(z)).collect();
+    if heights.len() < 60 {
+        return None;
+    }
+    heights.sort_by(f64::total_cmp);
+    Some(heights[heights.len() / 2])
+}
+
+/// The pixels that stand above the plate, or differ from it in colour.
+fn spots(frame: &RgbdFrame, footprint: &Polygon, points: &[(usize, usize, [f64; 3], f64)], plate: f64) -> Vec<Spot> {
+    // The noise and the steps of depth grow with its square.
+    let tolerance = |depth: f64| 0.014 + 0.005 * depth * depth;
+    let flat = points.iter().filter(|p| (p.2[2] - plate).abs() < tolerance(p.3));
+    let color_at = |column: usize, row: usize| frame.color[row * frame.width + column];
+    let Some(usual) = median_color(flat.map(|p| color_at(p.0, p.1))) else { return Vec::new() };
+    let spot = |&(column, row, point, depth): &(usize, usize, [f64; 3], f64)| {
+        let (above, at) = (point[2] - plate, vec2(point[0], point[1]));
+        let color = color_at(column, row);
+        let contrast: i32 = (0..3).map(|c| (i32::from(color[c]) - i32::from(usual[c])).abs()).sum();
+        let tall = above > tolerance(depth) && above < TALLEST_M;
+        let marked = above.abs() <= tolerance(depth) && contrast > CONTRAST;
+        (tall || marked).then_some(Spot { column, row, at, height: if tall { above } else { 0.0 } })
+    };
+    points.iter().filter_map(spot).filter(|spot| inside(footprint, spot.at)).collect()
+}
+
+fn median_color(colors: impl Iterator<Item = [u8; 3]>) -> Option<[u8; 3]> {
+    let colors: Vec<[u8; 3]> = colors.collect();
+    let median = |channel: usize| {
+        let mut values: Vec<u8> = colors.iter().map(|color| color[channel]).collect();
+        values.sort_unstable();
+        values.get(values.len() / 2).copied()
+    };
+    Some([median(0)?, median(1)?, median(2)?])
+}
+
+/// Groups of spots that touch in the picture, over gaps of three pixels.
+fn blobs(spots: Vec<Spot>, width: usize) -> Vec<Vec<Spot>> {
+    let mut free: HashMap<usize, Spot> = spots.iter().map(|spot| (spot.row * width + spot.column, *spot)).collect();
+    let mut blobs = Vec::new();
+    for start in spots {
+        let blob = grown(start, &mut free, width);
+        if blob.len() >= FEWEST_PIXELS {
+            blobs.push(blob);
+        }
+    }
+    blobs
+}
+
+/// Takes a spot and all that touch it, directly or through others, out of those that are free.
+fn grown(start: Spot, free: &mut HashMap<usize, Spot>, width: usize) -> Vec<Spot> {
+    const GAP: usize = 3;
+    let mut blob = Vec::new();
+    let mut next: Vec<Spot> = free.remove(&(start.row * width + start.column)).into_iter().collect();
+    while let Some(spot) = next.pop() {
+        blob.push(spot);
+        for row in spot.row.saturating_sub(GAP)..=spot.row + GAP {
+            for column in spot.column.saturating_sub(GAP)..=(spot.column + GAP).min(width - 1) {
+                next.extend(free.remove(&(row * width + column)));
+            }
+        }
+    }
+    blob
+}
+
+/// What a blob looks like.
+struct Looks {
+    /// Longest and shortest extent in plan, metres.
+    extent: (f64, f64),
+    height: f64,
+    color: [u8; 3],
+}
+
+fn sighting(geometry: &Geometry, blob: &[Spot]) -> Option<ObjectSighting> {
+    let frame = geometry.frame;
+    let color = median_color(blob.iter().map(|s| frame.color[s.row * frame.width + s.column]))?;
+    let mut heights: Vec<f64> = blob.iter().map(|s| s.height).collect();
+    heights.sort_by(f64::total_cmp);
+    let height = heights[heights.len() * 19 / 20].max(0.012);
+    let looks = Looks { extent: extent(blob), height, color };
+    let (object, cost) = OBJECTS.iter().map(|o| (o, misfit(o, &looks))).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let middle = blob.iter().map(|s| s.at).sum::<Vec2>() / blob.len() as f64;
+    let eye = geometry.eye();
+    let (pixels, border, range) = RECOGNISABLE;
+    let within = |s: &Spot| {
+        s.column >= border && s.row >= border && s.column + border < frame.width && s.row + border < frame.height
+    };
+    let recognisable = blob.len() >= pixels
+        && blob.iter().all(within)
+        && (middle - vec2(eye[0], eye[1])).norm() <= range
+        && cost < WORST_FIT;
+    Some(ObjectSighting { name: object.name.to_string(), x: middle.x, y: middle.y, recognisable })
+}
+
+/// The spread of a blob along and across its principal axis, metres.
+fn extent(blob: &[Spot]) -> (f64, f64) {
+    let n = blob.len() as f64;
+    let middle = blob.iter().map(|s| s.at).sum::<Vec2>() / n;
+    let sum = |f: fn(Vec2) -> f64| blob.iter().map(|s| f(s.at - middle)).sum::<f64>() / n;
+    let (xx, yy, xy) = (sum(|d| d.x * d.x), sum(|d| d.y * d.y), sum(|d| d.x * d.y));
+    let half = ((xx - yy).powi(2) / 4.0 + xy * xy).sqrt();
+    let (large, small) = ((xx + yy) / 2.0 + half, ((xx + yy) / 2.0 - half).max(0.0));
+    // An even bar of length L has variance L²/12.
+    ((12.0 * large).sqrt(), (12.0 * small).sqrt())
+}
+
+/// How badly an object of this kind would look like that; 0 is a perfect match.
+fn misfit(object: &SmallObject, looks: &Looks) -> f64 {
+    let (long, short) = (object.size.length.max(object.size.width), object.size.length.min(object.size.width));
+    // The far side is hidden: less than the usual depth is no surprise, more is.
+    let ratio = |seen: f64, usual: f64| ((seen + 0.015) / (usual + 0.015)).ln();
+    let short_ratio = ratio(looks.extent.1, short);
+    let size =
+        (ratio(looks.extent.0, long) / 0.3).powi(2) + (short_ratio / if short_ratio < 0.0 { 0.9 } else { 0.5 }).powi(2);
+    let height = ((looks.height - object.size.height) / (0.018 + 0.12 * object.size.height)).powi(2);
+    size + height + color_misfit(object.color, looks.color)
+}
+
+/// Light changes brightness more than hue.
+fn color_misfit(usual: [u8; 3], seen: [u8; 3]) -> f64 {
+    let brightness = |c: [u8; 3]| c.iter().map(|&v| f64::from(v)).sum::<f64>() + 15.0;
+    let (u, s) = (brightness(usual), brightness(seen));
+    let hue: f64 = (0..3).map(|i| (f64::from(usual[i]) / u - f64::from(seen[i]) / s).powi(2)).sum();
+    hue / 0.07_f64.powi(2) + ((s / u).ln() / 0.6).powi(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+    use std::rc::Rc;
+
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+
+    use super::*;
+    use crate::geometry::Pose;
+    use crate::perception::Eyes;
+    use crate::perception::truth::TruthEyes;
+    use crate::robot::simulated::Truth;
+    use crate::world::camera::{Kinect, SolidScene};
+    use crate::world::{RoomMap, Scene};
+
+    /// What is recognised on the furniture `on`, seen from 1.3 m to its east.
+    fn recognised(on: &str) -> Vec<String> {
+        let (map, scene) = (RoomMap::apartment(), Scene::apartment());
+        let item = scene.item(on).expect("in the scene");
+        let pose = Pose::new(item.x + 1.3, item.y, std::f64::consts::PI);
+        let solids = SolidScene::new(&map, &scene);
+        let (frame, _) = Kinect::default().capture(&solids, pose, &mut ChaCha8Rng::seed_from_u64(3));
+        let truth = Rc::new(RefCell::new(Truth { pose, ..Truth::default() }));
+        let mut furniture = TruthEyes::new(&map, Rc::new(scene.clone()), truth).look(pose).furniture;
+        furniture.retain(|piece| (vec2(piece.x, piece.y) - item.pose().position()).norm() < 1e-6);
+        let seen = sightings(&frame, &furniture);
+        seen.into_iter().filter(|s| s.recognisable).map(|s| s.name).collect()
+    }
+
+    #[test]
+    fn a_mug_shows_by_its_height_and_a_fork_by_its_colour() {
+        assert_eq!(recognised("hexagon-table-1"), ["mug"]);
+        assert_eq!(recognised("round-table-1"), ["fork"]);
+    }
+
+    #[test]
+    fn nothing_is_seen_on_a_bed() {
+        assert!(recognised("bed-1").is_empty());
+    }
+}
