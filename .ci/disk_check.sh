@@ -6,7 +6,8 @@ disk=$(mktemp -d)
 mount -t tmpfs -o size=64k tmpfs "$disk"
 trap 'umount "$disk"; rmdir "$disk"' EXIT
 
-chunked=$(yes 'the mug is in the bedroom on the table by the chairs' | head -2000 | chunk)
+said=$(seq 2000 | sed 's/.*/the mug is in the bedroom on the table by the chairs/')
+chunked=$(chunk <<< "$said")
 full() {
     local code=0
     "$@" 2> /tmp/said.$$ || code=$?
@@ -16,8 +17,8 @@ full() {
     fi
     rm -f /tmp/said.$$
 }
-yes 'the mug is in the bedroom on the table by the chairs' | head -2000 | full chunk -o "$disk/out.jsonl"
+full chunk -o "$disk/out.jsonl" <<< "$said"
 full ground -o "$disk/out.jsonl" <<< "$chunked"
 ground <<< "$chunked" | full plan -o "$disk/out.jsonl"
-head -200 <<< "$chunked" | ground | plan | full drive -o "$disk/out.jsonl"
+sed -n 1,60p <<< "$chunked" | ground | plan | full drive -o "$disk/out.jsonl"
 echo "a full disk is said, and nothing half-written stays"

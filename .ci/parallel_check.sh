@@ -9,7 +9,7 @@ trap 'rm -rf "$folder"' EXIT
 jq -c '{id, text}' corpus/templates.jsonl > "$folder/texts.jsonl"
 # shellcheck disable=SC2016
 stages='set -o pipefail; chunk -j 1 | ground -j 1 --brief | plan -j 1 | drive -j 1'
-in_parallel() { parallel --will-cite --pipepart --keep-order --halt now,fail=1 --block -4 -j 2 -a "$1" "$stages"; }
+in_parallel() { parallel --will-cite --pipepart --keep-order --halt soon,fail=1 --block -4 -j 2 -a "$1" "$stages"; }
 
 in_parallel "$folder/texts.jsonl" > "$folder/many.jsonl"
 bash -c "$stages" < "$folder/texts.jsonl" > "$folder/one.jsonl"

@@ -3,6 +3,7 @@
 
 Needs pyspark and Java; the executables have to be on the PATH. Usage: spark_check.py < texts.jsonl
 """
+import os
 import subprocess
 import sys
 
@@ -10,6 +11,8 @@ from pyspark import SparkContext
 
 STAGES = "set -o pipefail; chunk -j 1 | ground -j 1 --brief | plan -j 1 | drive -j 1"
 COMMAND = f"bash -c '{STAGES}'"
+# pipe() hands on no environment of its own.
+ENVIRONMENT = {"PATH": os.environ["PATH"]}
 
 
 def main():
@@ -17,10 +20,10 @@ def main():
     one = subprocess.run(["bash", "-c", STAGES], input="\n".join(texts) + "\n", capture_output=True, text=True, check=True)
     context = SparkContext(master="local[2]", appName="spatial-fetch")
     context.setLogLevel("OFF")
-    many = context.parallelize(texts, 5).pipe(COMMAND, checkCode=True).collect()
+    many = context.parallelize(texts, 5).pipe(COMMAND, ENVIRONMENT, checkCode=True).collect()
     assert many == one.stdout.splitlines(), "Spark's records differ from those of one process"
     try:
-        context.parallelize(texts + ['{"id":"bad","text":7}'], 5).pipe(COMMAND, checkCode=True).collect()
+        context.parallelize(texts + ['{"id":"bad","text":7}'], 5).pipe(COMMAND, ENVIRONMENT, checkCode=True).collect()
     except Exception:
         print(f"PySpark: {len(many)} records, the same bytes as one process; a failure is passed on")
     else:

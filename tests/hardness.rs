@@ -79,7 +79,8 @@ fn an_interrupt_ends_each_with_130_and_leaves_nothing_half_written() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("out.jsonl");
         let mut child = start(name, &["-o", path.to_str().expect("UTF-8")], Stdio::null());
-        let stdin = child.stdin.as_mut().expect("piped");
+        // Held open until the end: waiting for a child closes what it still holds, and that would be the end of input.
+        let mut stdin = child.stdin.take().expect("piped");
         stdin.write_all(input.as_bytes()).expect("written");
         // The temporary file shows that the handler is about to be or is in place.
         while std::fs::read_dir(folder.path()).expect("readable").count() == 0 {
@@ -89,7 +90,18 @@ fn an_interrupt_ends_each_with_130_and_leaves_nothing_half_written() {
         interrupt(&child);
         assert_eq!(child.wait().expect("ends").code(), Some(130), "{name}");
         assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), 0, "{name}");
+        drop(stdin);
     }
+}
+
+#[test]
+fn a_run_that_ends_early_leaves_nothing_half_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (path, good) = (folder.path().join("out.jsonl"), folder.path().join("good.txt"));
+    std::fs::write(&good, "go left\n").expect("written");
+    let files = [good.to_str().expect("UTF-8"), "no/such/file", "-o", path.to_str().expect("UTF-8")];
+    run("chunk", &files, "").expect_code(1);
+    assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), 1);
 }
 
 #[test]

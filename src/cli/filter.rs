@@ -4,9 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
-use super::{
-    Common, Diagnostic, Exit, Failure, Format, Inputs, Line, Progress, Reporter, Source, on_interrupt, open_output,
-};
+use super::{Common, Diagnostic, Exit, Failure, Format, Inputs, Line, Progress, Reporter, Source, open_output};
 use crate::record::{Note, Record, Stage, StageError};
 
 /// Enough lines to keep the cores busy, few enough to answer soon.
@@ -54,8 +52,7 @@ pub(super) fn run_source<T: Sync>(
 ) -> Result<Exit, Failure> {
     let reporter = Reporter::new(program, common);
     let sink = open_output(common)?;
-    let closing = sink.clone();
-    on_interrupt(move || closing.discard_soon());
+    sink.discard_on_interrupt();
     let workers = Workers::new(common.jobs)?;
     let mut progress = Progress::new(common, None);
     let mut exit = Exit::Done;

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::NamedTempFile;
 
-use super::{Common, Failure};
+use super::{Common, Failure, on_interrupt};
 use crate::files;
 
 /// How long an interrupt waits for a write: a reader that has stalled must not keep us alive.
@@ -46,16 +46,21 @@ impl SharedSink {
         self.with(|sink| sink.target = Target::Closed);
     }
 
-    /// Gives up from another thread, after the write that is under way, but does not wait for one that is stuck.
-    pub fn discard_soon(&self) {
-        let give_up = Instant::now() + STUCK_AFTER;
-        while Instant::now() < give_up {
-            if let Ok(mut sink) = self.0.try_lock() {
-                sink.target = Target::Closed;
-                return;
+    /// Gives up when the process is told to stop: after the write that is under way, but without waiting for one
+    /// that is stuck. The sink is not kept alive for that, so that it is also given up when a run ends early.
+    pub fn discard_on_interrupt(&self) {
+        let sink = Arc::downgrade(&self.0);
+        on_interrupt(move || {
+            let Some(sink) = sink.upgrade() else { return };
+            let give_up = Instant::now() + STUCK_AFTER;
+            while Instant::now() < give_up {
+                if let Ok(mut sink) = sink.try_lock() {
+                    sink.target = Target::Closed;
+                    return;
+                }
+                std::thread::sleep(Duration::from_millis(5));
             }
-            std::thread::sleep(Duration::from_millis(5));
-        }
+        });
     }
 
     fn with<T>(&self, act: impl FnOnce(&mut Sink) -> T) -> T {

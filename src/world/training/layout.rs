@@ -37,7 +37,7 @@ impl FurnishedRoom {
         let (at, half) = (self.placed[table].pose, self.placed[table].piece.half());
         for _ in 0..TRIES {
             let side = dice.whole(0, 3);
-            let (reach, along) = if side % 2 == 0 { (half.x, half.y) } else { (half.y, half.x) };
+            let (reach, along) = if side.is_multiple_of(2) { (half.x, half.y) } else { (half.y, half.x) };
             let away = reach + seat.size.length / 2.0 + dice.between(-0.28, 0.12);
             let free = (along - seat.size.width / 2.0).max(0.0);
             let local = Pose::new(0.0, 0.0, side as f64 * FRAC_PI_2);
