@@ -42,7 +42,8 @@ pub fn home_for(grounding: &Grounding, lexicon: &Lexicon, dice: &mut Dice) -> Op
         let builder = Builder::new(&map, &room, lexicon, dice)?;
         let (scene, target) = builder.build(&plan, grounding)?;
         let sound = crate::world::check(&scene, &map, "the gold home").is_ok();
-        (sound && everything_is_accessible(&map, &scene)).then(|| GoldHome { home: Home { map, scene }, target })
+        let accessible = sound && everything_is_accessible(&map, &scene);
+        accessible.then_some(GoldHome { home: Home { map, scene }, target })
     })
 }
 

@@ -30,7 +30,7 @@ pub fn new_home(name: &str, dice: &mut Dice) -> Option<(RoomMap, Scene)> {
     (0..ATTEMPTS).find_map(|_| {
         let count = 2 + dice.below(3);
         let kinds = dice.shuffled((0..ROOMS.len()).collect());
-        let side = |i: usize| if i % 2 == 0 { Direction::Right } else { Direction::Left };
+        let side = |i: usize| if i.is_multiple_of(2) { Direction::Right } else { Direction::Left };
         let plans: Vec<RoomPlan> = kinds[..count]
             .iter()
             .enumerate()
