@@ -40,28 +40,13 @@ pub fn color_word([r, g, b]: [f64; 3]) -> &'static str {
         () if most == g => 60.0 * ((b - r) / (most - least) + 2.0),
         () => 60.0 * ((r - g) / (most - least) + 4.0),
     };
+    let dark_wood = most < 0.45 && saturation < 0.7;
     match hue {
-        h if h < 14.0 => {
-            if most < 0.45 && saturation < 0.7 {
-                "brown"
-            } else {
-                "red"
-            }
-        }
-        h if h < 45.0 => {
-            if saturation > 0.75 && most > 0.75 {
-                "orange"
-            } else {
-                "brown"
-            }
-        }
-        h if h < 70.0 => {
-            if saturation < 0.4 {
-                "brown"
-            } else {
-                "yellow"
-            }
-        }
+        h if h < 14.0 && dark_wood => "brown",
+        h if h < 14.0 => "red",
+        h if h < 45.0 && saturation > 0.75 && most > 0.75 => "orange",
+        h if h < 45.0 || (h < 70.0 && saturation < 0.4) => "brown",
+        h if h < 70.0 => "yellow",
         h if h < 165.0 => "green",
         h if h < 260.0 => "blue",
         h if h < 330.0 => "purple",

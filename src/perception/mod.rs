@@ -32,6 +32,7 @@ mod rectangle;
 mod scenes;
 mod segment;
 mod stage;
+mod tabletop;
 pub mod training;
 pub mod truth;
 mod walls;
