@@ -40,13 +40,12 @@ pub fn color_word([r, g, b]: [f64; 3]) -> &'static str {
         () if most == g => 60.0 * ((b - r) / (most - least) + 2.0),
         () => 60.0 * ((r - g) / (most - least) + 4.0),
     };
-    let dull = saturation < 0.7 && most < 0.45;
-    let bright = saturation > 0.75 && most > 0.75;
+    let dark_wood = most < 0.45 && saturation < 0.7;
     match hue {
-        h if h < 14.0 && !dull => "red",
-        h if (14.0..45.0).contains(&h) && bright => "orange",
-        h if h < 45.0 => "brown",
-        h if h < 70.0 && saturation < 0.4 => "brown",
+        h if h < 14.0 && dark_wood => "brown",
+        h if h < 14.0 => "red",
+        h if h < 45.0 && saturation > 0.75 && most > 0.75 => "orange",
+        h if h < 45.0 || (h < 70.0 && saturation < 0.4) => "brown",
         h if h < 70.0 => "yellow",
         h if h < 165.0 => "green",
         h if h < 260.0 => "blue",

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::View;
 use super::describe::describe;
 use super::floor_grid::{FloorGrid, project};
 use super::footprint::Footprint;
@@ -10,18 +9,23 @@ use super::front::{Facing, Hidden, facings, hidden_sides};
 use super::joining::Joining;
 use super::measures::{Measured, measure};
 use super::model::{CATEGORIES, Model, NOTHING};
-use super::objects::sightings;
 use super::patches::patches;
 use super::points::{Points, points};
 use super::segment::{Segment, Segments, segments};
+use super::tabletop::things;
 use super::walls::{Wall, furniture_cells, walls};
+use super::{ObjectSighting, View};
 use crate::frame::RgbdFrame;
 use crate::geometry::{Polygon, Pose, wrap_angle};
 use crate::record::Detection;
-use crate::world::RoomMap;
+use crate::world::{OBJECTS, RoomMap};
 
 /// What is likelier no furniture than this is left out.
 const MOST_NOTHING: f32 = 0.5;
+/// An object is named only when its name is at least this likely.
+const LEAST_NAME: f32 = 0.35;
+/// The training rooms show so much more clutter on tops – edges, shades, patterns – than a top has objects.
+const CLUTTER: f32 = 0.08;
 
 /// Finds furniture and small objects in frames.
 #[derive(Clone, Debug)]
@@ -73,15 +77,36 @@ impl Detector {
     /// What one frame shows, in the frame's world; `map` tells which surfaces are walls.
     pub fn detect(&self, frame: &RgbdFrame, map: Option<&RoomMap>) -> View {
         let parts = parts(frame, map, &self.model.joining);
-        let pieces = (0_u32..).zip(&parts.segments.pieces);
-        let furniture = pieces.filter_map(|(number, piece)| self.piece(&parts, number, piece)).collect();
-        let furniture: Vec<Detection> = without_doubles(furniture).into_iter().map(rounded).collect();
-        let objects = sightings(frame, &furniture);
-        View { furniture, objects }
+        let (mut furniture, mut objects) = (Vec::new(), Vec::new());
+        for (number, piece) in (0_u32..).zip(&parts.segments.pieces) {
+            let measured = measure(&parts.grid, &parts.walls, piece);
+            objects.extend(self.objects(frame, &parts, piece, measured.measures.plate));
+            furniture.extend(self.piece(&parts, number, piece, &measured));
+        }
+        View { furniture: without_doubles(furniture).into_iter().map(rounded).collect(), objects }
     }
 
-    fn piece(&self, parts: &Parts, number: u32, segment: &Segment) -> Option<Detection> {
-        let measured = measure(&parts.grid, &parts.walls, segment);
+    /// The portable objects on a piece.
+    fn objects(&self, frame: &RgbdFrame, parts: &Parts, piece: &Segment, plate: f64) -> Vec<ObjectSighting> {
+        let things = things(frame, &parts.points, piece, plate).into_iter();
+        let named = things.filter_map(|thing| {
+            let chances = self.model.object.probabilities(&thing.features);
+            let best = (0..OBJECTS.len()).fold(0, |best, i| if chances[i] > chances[best] { i } else { best });
+            let place = parts.points.camera.to_world(thing.place);
+            let none = chances[OBJECTS.len()] * CLUTTER;
+            let objects: f32 = chances[..OBJECTS.len()].iter().sum();
+            let sure = !thing.is_flank && chances[best] / (objects + none) > LEAST_NAME;
+            sure.then(|| ObjectSighting {
+                name: OBJECTS[best].name.to_string(),
+                x: place.x,
+                y: place.y,
+                recognisable: thing.recognisable,
+            })
+        });
+        named.collect()
+    }
+
+    fn piece(&self, parts: &Parts, number: u32, segment: &Segment, measured: &Measured) -> Option<Detection> {
         let chances = self.model.category.probabilities(&measured.features);
         if chances[NOTHING] > MOST_NOTHING {
             return None;
@@ -90,13 +115,13 @@ impl Detector {
         let r = segment.rectangle;
         let (length, width) = (measured.measures.long, measured.measures.short);
         let hidden = hidden_sides(&parts.grid, &parts.segments, number, &parts.walls, r.pose, length, width);
-        let facings = facings(&parts.grid, &parts.walls, segment, &measured, hidden, &chances);
+        let facings = facings(&parts.grid, &parts.walls, segment, measured, hidden, &chances);
         let quarter = self.front(&facings, CATEGORIES[best]);
         let facing = &facings[quarter];
         let turned: Hidden = [0, 1, 2, 3].map(|side| hidden[(side + quarter) % 4]);
         let seen = Footprint { pose: facing.pose, length: facing.length, width: facing.width };
         let whole = seen.completed(turned, measured.measures.height, &self.model.sizes[best], &parts.walls);
-        Some(detection(&measured, whole, &chances, best, parts.points.camera))
+        Some(detection(measured, whole, &chances, best, parts.points.camera))
     }
 
     /// The quarter turn from the rectangle's heading to the front.

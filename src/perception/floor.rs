@@ -9,7 +9,7 @@ const STEEPEST: f64 = 0.0524;
 const LEAST_POINTS: usize = 300;
 
 /// z = a + b x + c y.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FloorPlane {
     height: f64,
     slopes: [f64; 2],
@@ -29,14 +29,19 @@ impl FloorPlane {
             .collect();
         let mut plane = Self { height: 0.0, slopes: [0.0; 2] };
         for reach in [0.15, 0.07, 0.04] {
-            let close = |p: &&[f64; 3]| (p[2] - plane.at(p[0], p[1])).abs() < reach;
+            let close = |p: &&[f64; 3]| (p[2] - plane.height_at(p[0], p[1])).abs() < reach;
             plane = least_squares(near.iter().filter(close))?;
         }
         (plane.slopes[0].hypot(plane.slopes[1]) < STEEPEST && plane.height.abs() < 0.15).then_some(plane)
     }
 
-    fn at(&self, x: f64, y: f64) -> f64 {
+    fn height_at(&self, x: f64, y: f64) -> f64 {
         self.height + self.slopes[0] * x + self.slopes[1] * y
+    }
+
+    /// The floor's height at a place, metres.
+    pub fn at(&self, x: f32, y: f32) -> f32 {
+        self.height as f32 + self.slopes[0] as f32 * x + self.slopes[1] as f32 * y
     }
 
     /// Turns the plane to z = 0 (for these small tilts, by lowering).

@@ -1,6 +1,7 @@
 //! Patches joined into pieces: a couch is a seat, a back and arms; a table and the chair at it are two.
 
-use std::collections::BTreeMap;
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BinaryHeap};
 
 use super::floor_grid::{CELL_M, FloorGrid};
 use super::forest::Forest;
@@ -32,19 +33,44 @@ pub struct Contact {
 pub struct Joining {
     /// The patches; those that were joined to others are empty.
     pub patches: Vec<Patch>,
-    /// Contacts of pairs, the lower number first.
-    pub contacts: BTreeMap<(u32, u32), Contact>,
+    /// Of each patch the others it touches; every contact stands with both.
+    contacts: Vec<BTreeMap<u32, Contact>>,
+    /// How often each patch has changed.
+    changes: Vec<u32>,
+}
+
+/// A pair that may be joined, as both stood when its chance was told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Candidate {
+    chance: f32,
+    pair: (u32, u32),
+    changes: (u32, u32),
+}
+
+impl Eq for Candidate {}
+
+impl Ord for Candidate {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.chance.total_cmp(&other.chance).then(other.pair.cmp(&self.pair)).then(self.changes.cmp(&other.changes))
+    }
+}
+
+impl PartialOrd for Candidate {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
 }
 
 impl Joining {
     /// The contacts of patches on the grid; crumbs are joined at once.
     pub fn new(grid: &FloorGrid, patches: Vec<Patch>, patch_of: &[u32]) -> Self {
-        let mut joining = Self { contacts: contacts(grid, &patches, patch_of), patches };
-        let crumbs: Vec<u32> = (0..joining.patches.len() as u32)
-            .filter(|p| joining.patches[*p as usize].cells.len() < CRUMB_CELLS)
-            .collect();
+        let contacts = contacts(grid, &patches, patch_of);
+        let mut joining = Self { contacts, changes: vec![0; patches.len()], patches };
+        let is_crumb = |p: &u32| joining.patches[*p as usize].cells.len() < CRUMB_CELLS;
+        let crumbs: Vec<u32> = (0..joining.patches.len() as u32).filter(is_crumb).collect();
         for crumb in crumbs {
-            let most = joining.neighbours(crumb).max_by(|a, b| a.1.count.total_cmp(&b.1.count)).map(|(n, _)| n);
+            let touched = joining.contacts[crumb as usize].iter();
+            let most = touched.max_by(|a, b| a.1.count.total_cmp(&b.1.count)).map(|(other, _)| *other);
             if let Some(other) = most {
                 joining.join(other, crumb);
             }
@@ -52,9 +78,17 @@ impl Joining {
         joining
     }
 
-    fn neighbours(&self, patch: u32) -> impl Iterator<Item = (u32, Contact)> + '_ {
-        let touches = self.contacts.iter().filter(move |((a, b), _)| *a == patch || *b == patch);
-        touches.map(move |((a, b), contact)| (if *a == patch { *b } else { *a }, *contact))
+    /// All pairs that touch, the lower number first, in order.
+    pub fn pairs(&self) -> Vec<(u32, u32)> {
+        let of = |(a, others): (u32, &BTreeMap<u32, Contact>)| {
+            others.keys().filter(move |b| a < **b).map(move |b| (a, *b)).collect::<Vec<_>>()
+        };
+        (0_u32..).zip(&self.contacts).flat_map(of).collect()
+    }
+
+    /// Whether a pair still touches.
+    pub fn touches(&self, (a, b): (u32, u32)) -> bool {
+        self.contacts[a as usize].contains_key(&b)
     }
 
     /// Joins `gone` to `kept`.
@@ -63,34 +97,40 @@ impl Joining {
         let patch = &mut self.patches[kept as usize];
         patch.cells.extend(cells.cells);
         patch.sums = patch.sums.joined(&cells.sums);
-        let moved: Vec<(u32, Contact)> = self.neighbours(gone).collect();
-        self.contacts.retain(|(a, b), _| *a != gone && *b != gone);
-        for (other, contact) in moved.into_iter().filter(|(other, _)| *other != kept) {
-            let entry = self.contacts.entry(ordered(kept, other)).or_default();
-            let touched = entry.count > 0.0 || contact.count > 0.0;
-            entry.count += contact.count;
-            entry.steps += contact.steps;
-            entry.gap = if touched { 0.0 } else { entry.gap.min(contact.gap) };
-            entry.hidden = entry.hidden.max(contact.hidden);
+        self.changes[kept as usize] += 1;
+        self.changes[gone as usize] += 1;
+        for (other, contact) in std::mem::take(&mut self.contacts[gone as usize]) {
+            self.contacts[other as usize].remove(&gone);
+            if other == kept {
+                continue;
+            }
+            let known = self.contacts[kept as usize].get(&other);
+            let both = known.map_or(contact, |known| known.and(&contact));
+            self.contacts[kept as usize].insert(other, both);
+            self.contacts[other as usize].insert(kept, both);
         }
     }
 
     /// Joins the likeliest pair until no pair is likely to be one piece.
     pub fn run(&mut self, forest: &Forest) {
-        let likely = |joining: &Self, pair: (u32, u32)| forest.probabilities(&joining.features(pair))[1];
-        let mut chances: BTreeMap<(u32, u32), f32> =
-            self.contacts.keys().map(|pair| (*pair, likely(self, *pair))).collect();
-        loop {
-            let best = chances.iter().max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)));
-            let Some((&(kept, gone), _)) = best.filter(|(_, chance)| **chance > 0.5) else { break };
-            self.join(kept, gone);
-            chances.retain(|(a, b), _| *a != gone && *b != gone);
-            let again: Vec<u32> = self.neighbours(kept).map(|(other, _)| other).collect();
-            for other in again {
-                let pair = ordered(kept, other);
-                chances.insert(pair, likely(self, pair));
+        let mut waiting: BinaryHeap<Candidate> =
+            self.pairs().into_iter().filter_map(|pair| self.candidate(forest, pair)).collect();
+        while let Some(best) = waiting.pop() {
+            let (kept, gone) = best.pair;
+            if best.changes != (self.changes[kept as usize], self.changes[gone as usize]) {
+                continue;
             }
+            self.join(kept, gone);
+            let others: Vec<u32> = self.contacts[kept as usize].keys().copied().collect();
+            waiting.extend(others.into_iter().filter_map(|other| self.candidate(forest, ordered(kept, other))));
         }
+    }
+
+    /// A pair that is likelier one piece than two.
+    fn candidate(&self, forest: &Forest, pair: (u32, u32)) -> Option<Candidate> {
+        let chance = forest.probabilities(&self.features(pair))[1];
+        let changes = (self.changes[pair.0 as usize], self.changes[pair.1 as usize]);
+        (chance > 0.5).then_some(Candidate { chance, pair, changes })
     }
 
     /// Adds the pairs that do not touch but may be one piece behind something.
@@ -106,19 +146,22 @@ impl Joining {
         for i in 0..whole.len() {
             for j in i + 1..whole.len() {
                 let pair = ordered(whole[i], whole[j]);
-                if !self.contacts.contains_key(&pair)
+                if !self.touches(pair)
                     && let Some(contact) = gap(grid, &samples[i], &samples[j])
                 {
                     bridges.push((pair, contact));
                 }
             }
         }
-        self.contacts.extend(bridges);
+        for ((a, b), contact) in bridges {
+            self.contacts[a as usize].insert(b, contact);
+            self.contacts[b as usize].insert(a, contact);
+        }
     }
 
     /// What tells whether a pair is one piece; the higher patch first.
     pub fn features(&self, (a, b): (u32, u32)) -> Vec<f32> {
-        let contact = self.contacts.get(&ordered(a, b)).copied().unwrap_or_default();
+        let contact = self.contacts[a as usize].get(&b).copied().unwrap_or_default();
         let (a, b) = (&self.patches[a as usize].sums, &self.patches[b as usize].sums);
         let (high, low) = if a.top().0 >= b.top().0 { (a, b) } else { (b, a) };
         let both = high.joined(low);
@@ -169,18 +212,38 @@ pub fn ordered(a: u32, b: u32) -> (u32, u32) {
     (a.min(b), a.max(b))
 }
 
-fn contacts(grid: &FloorGrid, patches: &[Patch], patch_of: &[u32]) -> BTreeMap<(u32, u32), Contact> {
-    let mut contacts: BTreeMap<(u32, u32), Contact> = BTreeMap::new();
+impl Contact {
+    /// The contact of a patch with two that become one.
+    fn and(&self, other: &Self) -> Self {
+        let touched = self.count > 0.0 || other.count > 0.0;
+        Self {
+            count: self.count + other.count,
+            steps: self.steps + other.steps,
+            gap: if touched { 0.0 } else { self.gap.min(other.gap) },
+            hidden: self.hidden.max(other.hidden),
+        }
+    }
+}
+
+fn contacts(grid: &FloorGrid, patches: &[Patch], patch_of: &[u32]) -> Vec<BTreeMap<u32, Contact>> {
+    let mut contacts: Vec<BTreeMap<u32, Contact>> = vec![BTreeMap::new(); patches.len()];
     for (number, patch) in (0_u32..).zip(patches) {
         for &cell in &patch.cells {
             let index = cell as usize;
             for next in grid.around(index, reach(grid.centre(index))).filter(|next| *next > index) {
-                if patch_of[next] != NONE && patch_of[next] != number {
-                    let contact = contacts.entry(ordered(number, patch_of[next])).or_default();
+                let other = patch_of[next];
+                if other != NONE && other != number {
+                    let step = f64::from((grid.cells[index].top - grid.cells[next].top).abs());
+                    let contact = contacts[number.min(other) as usize].entry(number.max(other)).or_default();
                     contact.count += 1.0;
-                    contact.steps += f64::from((grid.cells[index].top - grid.cells[next].top).abs());
+                    contact.steps += step;
                 }
             }
+        }
+    }
+    for number in 0..contacts.len() {
+        for (other, contact) in contacts[number].clone().into_iter().filter(|(other, _)| *other as usize > number) {
+            contacts[other as usize].insert(number as u32, contact);
         }
     }
     contacts

@@ -36,6 +36,7 @@ mod scenes;
 mod segment;
 pub mod simulated;
 mod stage;
+mod tabletop;
 pub mod training;
 pub mod truth;
 mod walls;

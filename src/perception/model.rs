@@ -1,4 +1,4 @@
-//! What was learned from rendered rooms: three forests, and the sizes of furniture.
+//! What was learned from rendered rooms: four forests, and the sizes of furniture.
 
 use std::sync::{Arc, LazyLock};
 
@@ -6,7 +6,7 @@ use super::forest::{Forest, take};
 use crate::world::Size;
 
 /// The first bytes of a model file.
-const MAGIC: &[u8; 8] = b"SFPERC01";
+const MAGIC: &[u8; 8] = b"SFPERC02";
 /// The categories a piece may be of; after them comes "none of these".
 pub const CATEGORIES: [&str; 16] = [
     "table",
@@ -38,6 +38,8 @@ pub struct Model {
     pub category: Forest,
     /// Whether a side of a piece is its front.
     pub front: Forest,
+    /// Which of the portable objects a thing on a table is; the last class is none of them.
+    pub object: Forest,
     /// Sizes of pieces of each category.
     pub sizes: Vec<Vec<Size>>,
 }
@@ -55,7 +57,7 @@ impl Model {
     /// The model as a file.
     pub fn write(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
-        for forest in [&self.joining, &self.category, &self.front] {
+        for forest in [&self.joining, &self.category, &self.front, &self.object] {
             forest.write(&mut bytes);
         }
         for sizes in &self.sizes {
@@ -73,7 +75,8 @@ impl Model {
         if &take::<8>(bytes)? != MAGIC {
             return None;
         }
-        let [joining, category, front] = [Forest::read(bytes)?, Forest::read(bytes)?, Forest::read(bytes)?];
+        let mut forest = || Forest::read(bytes);
+        let [joining, category, front, object] = [forest()?, forest()?, forest()?, forest()?];
         let mut sizes = Vec::new();
         for _ in CATEGORIES {
             let count = u16::from_le_bytes(take(bytes)?);
@@ -82,6 +85,6 @@ impl Model {
                 (0..count).map(|_| Some(Size { length: number()?, width: number()?, height: number()? })).collect();
             sizes.push(some?);
         }
-        Some(Self { joining, category, front, sizes })
+        Some(Self { joining, category, front, object, sizes })
     }
 }

@@ -43,8 +43,8 @@ impl Perceiver {
 
     /// Adds what a frame from a log shows to its record.
     pub fn see(&self, frame: &RgbdFrame, record: &mut Record) -> Result<Note, StageError> {
-        let name = record.get::<String>("frame")?.unwrap_or_else(|| "frame".to_string());
-        self.add(&name, frame, record)
+        let name = record.get::<String>("frame")?.or_else(|| record.id());
+        self.add(name.as_deref().unwrap_or("frame"), frame, record)
     }
 
     fn add(&self, name: &str, frame: &RgbdFrame, record: &mut Record) -> Result<Note, StageError> {

@@ -18,9 +18,10 @@ use super::measures::measure;
 use super::model::{CATEGORIES, Model, NOTHING};
 use super::patches::NONE;
 use super::points::STRIDE;
+use super::tabletop::things;
 use crate::geometry::{angle_between, wrap_angle};
 use crate::world::training::{TrainingFrame, TrueItem, frame};
-use crate::world::{Size, families};
+use crate::world::{OBJECTS, Size, families};
 
 /// A lower thing on a table is part of the table, metres.
 const LEAST_OWN_HEIGHT_M: f64 = 0.2;
@@ -42,15 +43,31 @@ pub fn train(schooling: Schooling) -> Model {
     let grow = |examples: Vec<Example>, classes, trees, depth, leaf| {
         Forest::grow(&examples, classes, Growth { trees, depth, leaf, seed })
     };
-    let of = |from: u64, to: u64, make: &(dyn Fn(&Labelled) -> Vec<Example> + Sync)| -> Vec<Example> {
+    let of = |from: u64, to: u64, make: &(dyn Fn(&Labelled) -> Vec<(Lesson, Example)> + Sync)| {
         let each = |index: u64| make(&Labelled::new(frame(seed, index)));
-        (from..to).into_par_iter().flat_map_iter(each).collect()
+        (from..to).into_par_iter().flat_map_iter(each).collect::<Vec<(Lesson, Example)>>()
     };
-    let joining = grow(of(0, frames / 2, &joining_examples), 2, 14, 11, 8);
-    let category = grow(of(0, frames, &|l| category_examples(l, &joining)), NOTHING + 1, 50, 16, 3);
+    let lesson = |examples: &[(Lesson, Example)], wanted: Lesson| -> Vec<Example> {
+        examples.iter().filter(|(lesson, _)| *lesson == wanted).map(|(_, example)| example.clone()).collect()
+    };
+    let pairs = of(0, frames / 2, &joining_examples);
+    let joining = grow(lesson(&pairs, Lesson::Joining), 2, 14, 11, 8);
+    let pieces = of(0, frames, &|labelled| piece_examples(labelled, &joining));
+    let category = grow(lesson(&pieces, Lesson::Category), NOTHING + 1, 50, 16, 3);
+    let object = grow(lesson(&pieces, Lesson::Object), OBJECTS.len() + 1, 24, 14, 4);
     // Frames the categories were not learned from, so that their chances are as unsure as in use.
-    let front = of(frames, frames + frames / 2, &|l| front_examples(l, &joining, &category));
-    Model { front: grow(front, 2, 24, 12, 6), joining, category, sizes: sizes(seed) }
+    let fronts = of(frames, frames + frames / 2, &|labelled| front_examples(labelled, &joining, &category));
+    let front = grow(lesson(&fronts, Lesson::Front), 2, 24, 12, 6);
+    Model { joining, category, front, object, sizes: sizes(seed) }
+}
+
+/// What an example teaches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Lesson {
+    Joining,
+    Category,
+    Front,
+    Object,
 }
 
 fn sizes(seed: u64) -> Vec<Vec<Size>> {
@@ -94,6 +111,16 @@ impl Labelled {
         self.frame.items.iter().find(|item| item.id + 1 == usize::from(id))
     }
 
+    /// The number of the portable object that most of some pixels (of the whole picture) belong to.
+    fn object(&self, pixels: &[u32]) -> usize {
+        let mut counts = BTreeMap::new();
+        pixels.iter().for_each(|at| *counts.entry(self.frame.ids[*at as usize]).or_default() += 1);
+        let (id, share) = majority(&counts);
+        let item = self.item(id).filter(|_| share > 0.5);
+        let number = item.and_then(|item| OBJECTS.iter().position(|object| object.name == item.category));
+        number.unwrap_or(OBJECTS.len())
+    }
+
     /// Pixels of each item in each group of cells, and of each item in all.
     fn counts(
         &self,
@@ -119,7 +146,7 @@ fn majority(counts: &BTreeMap<u16, usize>) -> (u16, f64) {
 }
 
 /// Pairs of patches as they stand at the start, half way and at the end of joining them rightly.
-fn joining_examples(labelled: &Labelled) -> Vec<Example> {
+fn joining_examples(labelled: &Labelled) -> Vec<(Lesson, Example)> {
     let (_, grid, _, mut joining) = surfaces(&labelled.frame.rgbd, None);
     let mut patch_of = vec![NONE; grid.cells.len()];
     for (number, patch) in (0_u32..).zip(&joining.patches) {
@@ -139,10 +166,11 @@ fn joining_examples(labelled: &Labelled) -> Vec<Example> {
         if stage == 2 {
             joining.bridge(&grid);
         }
-        let pairs: Vec<(u32, u32)> = joining.contacts.keys().copied().collect();
+        let pairs = joining.pairs();
         for pair in &pairs {
             if let Some(same) = same(*pair) {
-                examples.push(Example { features: joining.features(*pair), class: usize::from(same), weight: 1.0 });
+                let example = Example { features: joining.features(*pair), class: usize::from(same), weight: 1.0 };
+                examples.push((Lesson::Joining, example));
             }
         }
         join_rightly(&mut joining, &pairs, &same, stage, &mut rng);
@@ -159,8 +187,8 @@ fn join_rightly(
     rng: &mut ChaCha8Rng,
 ) {
     for (a, b) in pairs {
-        let still = joining.contacts.contains_key(&(*a, *b));
-        if still && same((*a, *b)) == Some(true) && (stage > 0 || rng.next_u32().is_multiple_of(2)) {
+        if joining.touches((*a, *b)) && same((*a, *b)) == Some(true) && (stage > 0 || rng.next_u32().is_multiple_of(2))
+        {
             joining.join(*a, *b);
         }
     }
@@ -181,14 +209,23 @@ fn truths<'l>(labelled: &'l Labelled, parts: &Parts) -> Vec<(usize, Option<&'l T
     (0..parts.segments.pieces.len() as u32).map(truth).collect()
 }
 
-fn category_examples(labelled: &Labelled, joining: &Forest) -> Vec<Example> {
+/// The pieces of a frame, and the things on them.
+fn piece_examples(labelled: &Labelled, joining: &Forest) -> Vec<(Lesson, Example)> {
     let parts = parts(&labelled.frame.rgbd, None, joining);
-    let measured = parts.segments.pieces.iter().map(|piece| measure(&parts.grid, &parts.walls, piece).features);
+    let mut examples = Vec::new();
     let truths = truths(labelled, &parts);
-    measured.zip(truths).map(|(features, (class, _))| Example { features, class, weight: 1.0 }).collect()
+    for (piece, (class, _)) in parts.segments.pieces.iter().zip(truths) {
+        let measured = measure(&parts.grid, &parts.walls, piece);
+        for thing in things(&labelled.frame.rgbd, &parts.points, piece, measured.measures.plate) {
+            let class = labelled.object(&thing.pixels);
+            examples.push((Lesson::Object, Example { features: thing.features, class, weight: 1.0 }));
+        }
+        examples.push((Lesson::Category, Example { features: measured.features, class, weight: 1.0 }));
+    }
+    examples
 }
 
-fn front_examples(labelled: &Labelled, joining: &Forest, category: &Forest) -> Vec<Example> {
+fn front_examples(labelled: &Labelled, joining: &Forest, category: &Forest) -> Vec<(Lesson, Example)> {
     let parts = parts(&labelled.frame.rgbd, None, joining);
     let mut examples = Vec::new();
     let truths = truths(labelled, &parts);
@@ -202,7 +239,8 @@ fn front_examples(labelled: &Labelled, joining: &Forest, category: &Forest) -> V
         let yaw = wrap_angle(item.yaw - parts.points.camera.heading);
         for facing in facings(&parts.grid, &parts.walls, piece, &measured, hidden, &chances) {
             let right = angle_between(facing.pose.heading, yaw) < std::f64::consts::FRAC_PI_4;
-            examples.push(Example { features: facing.features, class: usize::from(right), weight: 1.0 });
+            let example = Example { features: facing.features, class: usize::from(right), weight: 1.0 };
+            examples.push((Lesson::Front, example));
         }
     }
     examples

@@ -7,21 +7,16 @@ use spatial_fetch::cli::{
 use spatial_fetch::perception::{Perceiver, SceneView, Scenes, scene_of};
 use spatial_fetch::record::{Record, StageError};
 
-type Seen = Vec<Result<SceneView, Diagnostic>>;
-
 /// Looks at every frame and writes one record a scene, in the order in which scenes first appear.
-pub fn run(common: &Common, perceiver: &Perceiver, input: FrameInput) -> Result<Exit, Failure> {
-    let mut scenes = Scenes::default();
-    let exit = match input {
-        FrameInput::Lines(mut lines) => take_in(common, &mut lines, &mut scenes, |batch| {
-            batch.par_iter().map(|line| look(perceiver, line)).collect()
-        }),
-        FrameInput::Logs(mut logs) => take_in(common, logs.as_mut(), &mut scenes, |batch| {
-            batch.par_iter().map(|item| look_at(perceiver, item)).collect()
-        }),
-    }?;
+pub fn run(common: &Common, input: FrameInput, perceiver: &Perceiver) -> Result<Exit, Failure> {
+    let mut gathering =
+        Gathering { common, reporter: Reporter::new("perceive", common), scenes: Scenes::default(), exit: Exit::Done };
+    match input {
+        FrameInput::Lines(mut lines) => gathering.gather(&mut lines, &|line| look_at_line(perceiver, line))?,
+        FrameInput::Logs(mut logs) => gathering.gather(logs.as_mut(), &|item| look_at_item(perceiver, item))?,
+    }
     let sink = open_output(common)?;
-    for scene in scenes.fused() {
+    for scene in gathering.scenes.fused() {
         let text = match common.format {
             Format::Json => serde_json::to_string(&scene).map_err(|error| Failure::Failed(error.to_string()))?,
             Format::Text => scene.text(),
@@ -29,51 +24,50 @@ pub fn run(common: &Common, perceiver: &Perceiver, input: FrameInput) -> Result<
         sink.write(format!("{text}\n").as_bytes())?;
     }
     sink.finish()?;
-    Ok(exit)
+    Ok(gathering.exit)
 }
 
-fn take_in<T>(
-    common: &Common,
-    source: &mut dyn Source<T>,
-    scenes: &mut Scenes,
-    look: impl Fn(&[T]) -> Seen,
-) -> Result<Exit, Failure> {
-    let reporter = Reporter::new("perceive", common);
-    let mut exit = Exit::Done;
-    loop {
-        let batch = source.next_batch(256)?;
-        for lost in source.lost() {
-            reporter.warning(&lost);
-            exit = Exit::Lost;
-        }
-        if batch.is_empty() {
-            return Ok(exit);
-        }
-        for view in look(&batch) {
-            match view {
-                Ok(view) => scenes.add(view),
-                Err(error) => {
-                    reporter.error(&error);
-                    exit = Exit::Lost;
-                    if !common.keep_going {
-                        let what = "stopped at the first frame that failed; --keep-going goes on";
-                        return Err(Failure::Failed(what.to_string()));
-                    }
+struct Gathering<'c> {
+    common: &'c Common,
+    reporter: Reporter,
+    scenes: Scenes,
+    exit: Exit,
+}
+
+impl Gathering<'_> {
+    fn gather<T: Sync>(
+        &mut self,
+        source: &mut dyn Source<T>,
+        look: &(dyn Fn(&T) -> Result<SceneView, Diagnostic> + Sync),
+    ) -> Result<(), Failure> {
+        loop {
+            let batch = source.next_batch(256)?;
+            for lost in source.lost() {
+                self.reporter.warning(&lost);
+                self.exit = Exit::Lost;
+            }
+            if batch.is_empty() {
+                return Ok(());
+            }
+            let seen: Vec<Result<SceneView, Diagnostic>> = batch.par_iter().map(look).collect();
+            for view in seen {
+                match view {
+                    Ok(view) => self.scenes.add(view),
+                    Err(error) => self.lose(&error)?,
                 }
             }
         }
     }
+
+    fn lose(&mut self, error: &Diagnostic) -> Result<(), Failure> {
+        self.reporter.error(error);
+        self.exit = Exit::Lost;
+        let stop = "stopped at the first frame that failed; --keep-going goes on";
+        if self.common.keep_going { Ok(()) } else { Err(Failure::Failed(stop.to_string())) }
+    }
 }
 
-/// All frames of a log are one scene.
-fn look_at(perceiver: &Perceiver, item: &FrameItem) -> Result<SceneView, Diagnostic> {
-    let (name, frame) = (item.name(), &item.timed.frame);
-    let view = perceiver.look(&name, frame);
-    let view = view.map_err(|error| Diagnostic::at(&item.line(), 0, Some(name.clone()), error.message))?;
-    Ok(SceneView::new(scene_of(&name).to_string(), name, frame, view))
-}
-
-fn look(perceiver: &Perceiver, line: &Line) -> Result<SceneView, Diagnostic> {
+fn look_at_line(perceiver: &Perceiver, line: &Line) -> Result<SceneView, Diagnostic> {
     let text =
         std::str::from_utf8(&line.bytes).map_err(|e| Diagnostic::at(line, e.valid_up_to(), None, "not UTF-8"))?;
     let record = Record::parse(text)
@@ -85,4 +79,16 @@ fn look(perceiver: &Perceiver, line: &Line) -> Result<SceneView, Diagnostic> {
         Ok(SceneView::new(said.unwrap_or_else(|| scene_of(&name).to_string()), name, &frame, view))
     };
     view().map_err(|error| Diagnostic::at(line, error.offset.unwrap_or(0), record.id(), error.message))
+}
+
+/// A log is one scene.
+fn look_at_item(perceiver: &Perceiver, item: &FrameItem) -> Result<SceneView, Diagnostic> {
+    let (name, frame) = (item.ordinal.to_string(), &item.timed.frame);
+    let view = perceiver.look(&name, frame);
+    let place = format!("{}: frame {name}", item.file);
+    view.map(|view| SceneView::new(item.file.clone(), name, frame, view)).map_err(|error| Diagnostic {
+        place,
+        id: None,
+        message: error.message,
+    })
 }

@@ -81,18 +81,14 @@ impl Program for Arguments {
         self.log.from.is_none() && self.common.files.is_empty()
     }
     fn run(self) -> Result<Exit, Failure> {
-        let perceiver = self.perceiver()?;
-        let input = FrameInput::open(&self.common.files, &self.log)?;
-        if self.fuse {
-            return fuse::run(&self.common, &perceiver, input);
-        }
-        match input {
+        let (perceiver, common) = (self.perceiver()?, &self.common);
+        match FrameInput::open(&common.files, &self.log)? {
+            input if self.fuse => fuse::run(common, input, &perceiver),
             FrameInput::Lines(mut lines) => {
-                cli::run_filter_on(Self::NAME, &self.common, &mut lines, Intake::Records, &perceiver)
+                cli::run_filter_on(Self::NAME, common, &mut lines, Intake::Records, &perceiver)
             }
             FrameInput::Logs(mut logs) => {
-                let logs = logs.as_mut();
-                cli::run_frames(Self::NAME, &self.common, logs, &perceiver, &|frame, record| {
+                cli::run_frames(Self::NAME, common, logs.as_mut(), &perceiver, &|frame, record| {
                     perceiver.see(frame, record)
                 })
             }
