@@ -75,9 +75,10 @@ mod tests {
         let flanks = (-10..=10).flat_map(|i| [vec2(-1.0, side(i)), vec2(1.0, side(i))]);
         let points: Vec<Vec2> = ends.chain(flanks).map(|p| pose.to_world(p)).collect();
         let found = closest_rectangle(&points).expect("a rectangle");
-        assert!((found.long - 2.0).abs() < 0.02 && (found.short - 1.0).abs() < 0.02);
-        assert!((found.pose.position() - pose.position()).norm() < 0.02);
-        assert!((found.pose.heading - 0.4).sin().abs() < 0.01);
+        // Nearer than 3 cm to a side counts as on it, so each side may be off by that.
+        assert!((found.long - 2.0).abs() < 0.06 && (found.short - 1.0).abs() < 0.06, "{found:?}");
+        assert!((found.pose.position() - pose.position()).norm() < 0.03, "{found:?}");
+        assert!((found.pose.heading - 0.4).sin().abs() < 0.06, "{found:?}");
     }
 
     #[test]
