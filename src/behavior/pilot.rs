@@ -8,11 +8,10 @@ use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, segments_touch, wrap_a
 use crate::perception::{Eyes, View};
 use crate::robot::{MobileBase, RobotError};
 use crate::world::RoomMap;
+pub use crate::world::arrange::access::SWING_M;
 
 /// Control period, seconds.
 pub(super) const TICK_S: f64 = 0.1;
-/// The P3DX turns in place within 0.369 m; what is planned keeps this clear, metres.
-pub const SWING_M: f64 = 0.43;
 /// Cell of the planning grid, metres.
 const CELL_M: f64 = 0.1;
 /// Beyond this, distances to obstacles are not told apart, metres.

@@ -15,7 +15,6 @@ mod input;
 mod interrupt;
 mod log_input;
 mod output;
-mod parallel;
 mod program;
 mod progress;
 mod scores;
@@ -33,7 +32,6 @@ pub use input::{Inputs, Line, read_file};
 pub use interrupt::on_interrupt;
 pub use log_input::FromLog;
 pub use output::{SharedSink, Sink, open_output};
-pub use parallel::in_parallel;
 pub use program::{Program, command_of, main};
 pub use progress::Progress;
 pub use scores::{
@@ -41,4 +39,4 @@ pub use scores::{
     write_scores, write_text,
 };
 pub use source::Source;
-pub use threads::on_threads;
+pub use threads::{counted_on_threads, on_threads};

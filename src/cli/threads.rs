@@ -1,6 +1,8 @@
-//! `--jobs` for work that is no filter.
+//! `--jobs` and progress for work that is no filter.
 
-use super::{Failure, on_interrupt};
+use std::sync::{Mutex, PoisonError};
+
+use super::{Common, Failure, Progress, on_interrupt};
 
 /// Does `work` with its parallel parts on so many threads; 0 is one for each core.
 pub fn on_threads<T: Send>(jobs: usize, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
@@ -9,4 +11,15 @@ pub fn on_threads<T: Send>(jobs: usize, work: impl FnOnce() -> T + Send) -> Resu
     let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
     let pool = pool.map_err(|error| Failure::Failed(format!("cannot start {jobs} threads: {error}")))?;
     Ok(pool.install(work))
+}
+
+/// The same, counted on standard error: `work` calls what it is given once for each of the `total` things done.
+pub fn counted_on_threads<T: Send>(
+    common: &Common,
+    total: u64,
+    work: impl FnOnce(&(dyn Fn() + Sync)) -> T + Send,
+) -> Result<T, Failure> {
+    let progress = Mutex::new(Progress::new(common, Some(total)));
+    let done = || progress.lock().unwrap_or_else(PoisonError::into_inner).add(1);
+    on_threads(common.jobs, || work(&done))
 }

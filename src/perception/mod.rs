@@ -1,11 +1,11 @@
 //! What a robot's eyes report: furniture with pose, and the object.
 //!
-//! [`Detector`] makes detections of a frame: points ([`points`]) are levelled
-//! ([`floor`]) and projected onto a grid ([`floor_grid`]), walls are taken away
-//! ([`walls`]), cells of equal height make patches ([`patches`]), a forest joins
-//! patches into pieces ([`joining`]), another names them by what is measured of
-//! them ([`measures`]), a third tells their fronts ([`front`]); footprints are
-//! completed by what such pieces measure ([`footprint`]). All three are learned
+//! [`Detector`] makes detections of a frame: points (`points`) are levelled
+//! (`floor`) and projected onto a grid (`floor_grid`), walls are taken away
+//! (`walls`), cells of equal height make patches (`patches`), a forest joins
+//! patches into pieces (`joining`), another names them by what is measured of
+//! them (`measures`), a third tells their fronts (`front`); footprints are
+//! completed by what such pieces measure (`footprint`). All three are learned
 //! from rooms of our own ([`training`]). [`FurnitureMap`] fuses views.
 //!
 //! The executive sees only [`Eyes`]. [`truth`], [`boxes`] and [`simulated`] are

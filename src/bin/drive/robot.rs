@@ -25,7 +25,7 @@ enum Model {
 #[derive(Args)]
 #[command(next_help_heading = "Robot")]
 pub struct Arguments {
-    /// sim, serial:/dev/ttyUSB0[@38400] or tcp:HOST:8101
+    /// sim, `serial:/dev/ttyUSB0[@38400]` or tcp:HOST:8101
     #[arg(long, value_name = "ADDRESS", default_value = "sim")]
     robot: Address,
     /// Frames of the real robot's camera, an MCAP file, FIFO or `-`; none drives by odometry and sonar alone
@@ -55,7 +55,7 @@ pub struct Arguments {
     /// Print the commands the robot would get; touches no line
     #[arg(long)]
     dry_run: bool,
-    /// Serve the simulated robot at tcp:127.0.0.1:8101 or pty:PATH[@BAUD], to this or any ARCOS program
+    /// Serve the simulated robot at tcp:127.0.0.1:8101 or `pty:PATH[@BAUD]`, to this or any ARCOS program
     #[arg(long, value_name = "ADDRESS", help_heading = "Serving the simulated robot")]
     serve: Option<ServeAddress>,
     /// Stream what its Kinect sees, MCAP, into this file or FIFO

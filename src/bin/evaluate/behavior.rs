@@ -1,13 +1,10 @@
 //! `evaluate behavior`: the paper's Experiments 2 and 3.
 
 use std::path::PathBuf;
-use std::sync::Mutex;
 
 use clap::Args;
-use spatial_fetch::cli::{self, Common, Exit, Failure, Format, HomeArguments, Progress};
-use spatial_fetch::evaluation::behavior::{
-    BehaviorReport, Selection, Source, Study, behavior_tables, conditions, instructions,
-};
+use spatial_fetch::cli::{self, Common, Exit, Failure, HomeArguments};
+use spatial_fetch::evaluation::behavior::{Selection, Source, Study, behavior_tables, conditions, instructions};
 use spatial_fetch::trial::{Home, NoiseLevel, Perception, Settings};
 use spatial_fetch::world::Scene;
 
@@ -60,11 +57,10 @@ impl Arguments {
             seeds: self.seeds,
             explained: self.explain,
         };
-        let progress = Mutex::new(Progress::new(&self.common, Some(study.trials())));
-        let done = || progress.lock().map(|mut progress| progress.add(1)).unwrap_or_default();
-        let report = cli::on_threads(self.common.jobs, || study.run(&self.source(), &done))?;
-        drop(progress);
-        self.write(&report)
+        let source = self.source();
+        let report = cli::counted_on_threads(&self.common, study.trials(), |done| study.run(&source, done))?;
+        cli::write_report(&self.common, &report, || behavior_tables(&report))?;
+        Ok(Exit::Done)
     }
 
     fn homes(&self) -> Result<Vec<(&'static str, Home)>, Failure> {
@@ -87,16 +83,5 @@ impl Arguments {
             Selection::UniquePlaces => ", each once, bare targets aside",
         };
         format!("{source}{select}")
-    }
-
-    fn write(&self, report: &BehaviorReport) -> Result<Exit, Failure> {
-        let text = match self.common.format {
-            Format::Text => behavior_tables(report),
-            Format::Json => serde_json::to_string(report).map_err(|e| Failure::Failed(e.to_string()))?,
-        };
-        let sink = cli::open_output(&self.common)?;
-        sink.write(format!("{text}\n").as_bytes())?;
-        sink.finish()?;
-        Ok(Exit::Done)
     }
 }

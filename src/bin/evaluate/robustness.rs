@@ -47,7 +47,7 @@ pub struct Arguments {
 impl Arguments {
     pub fn run(self) -> Result<Exit, Failure> {
         let total = self.total()?;
-        let robustness = cli::in_parallel(&self.common, total, |done| self.measure(done))??;
+        let robustness = cli::counted_on_threads(&self.common, total, |done| self.measure(done))??;
         cli::write_robustness(&self.common, &robustness)
     }
 

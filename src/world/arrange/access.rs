@@ -6,8 +6,9 @@ use std::f64::consts::TAU;
 use crate::geometry::{Cell, ClearanceGrid, Vec2, vec2};
 use crate::world::{Item, RoomMap, Scene, Shape};
 
-/// The P3DX turns in place within this, with what a planner adds, metres.
-pub const SWING_M: f64 = 0.43;
+/// What a planner keeps clear, metres: the P3DX turns in place within 0.369 m; the rest is a cell of the planning grid
+/// and how far from a goal the robot may stop.
+pub const SWING_M: f64 = 0.46;
 /// Room beyond the swing that a place to stand and look needs, metres.
 const SPARE_M: f64 = 0.06;
 /// From a piece's edge and from its middle to the robot at least, and how much farther still does, metres.
