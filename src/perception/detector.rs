@@ -9,6 +9,7 @@ use super::front::{Facing, Hidden, facings, hidden_sides};
 use super::joining::Joining;
 use super::measures::{Measured, measure};
 use super::model::{CATEGORIES, Model, NOTHING};
+use super::objects::sightings;
 use super::patches::patches;
 use super::points::{Points, points};
 use super::segment::{Segment, Segments, segments};
@@ -20,6 +21,8 @@ use crate::geometry::{Polygon, Pose, wrap_angle};
 use crate::record::Detection;
 use crate::world::{OBJECTS, RoomMap};
 
+/// Two sightings of one name nearer than this are of one object, metres.
+const SAME_M: f64 = 0.15;
 /// What is likelier no furniture than this is left out.
 const MOST_NOTHING: f32 = 0.5;
 /// An object is named only when its name is at least this likely.
@@ -83,7 +86,16 @@ impl Detector {
             objects.extend(self.objects(frame, &parts, piece, measured.measures.plate));
             furniture.extend(self.piece(&parts, number, piece, &measured));
         }
-        View { furniture: without_doubles(furniture).into_iter().map(rounded).collect(), objects }
+        let furniture: Vec<Detection> = without_doubles(furniture).into_iter().map(rounded).collect();
+        // Two witnesses: what was learned misses tall thin things, the usual measures miss small ones of odd colour.
+        for sighting in sightings(frame, &furniture) {
+            let known = |other: &ObjectSighting| other.name == sighting.name && other.distance_to(&sighting) < SAME_M;
+            match objects.iter_mut().find(|other| known(other)) {
+                Some(other) => other.recognisable |= sighting.recognisable,
+                None => objects.push(sighting),
+            }
+        }
+        View { furniture, objects }
     }
 
     /// The portable objects on a piece.

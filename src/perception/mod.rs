@@ -91,3 +91,10 @@ pub struct ObjectSighting {
     /// Whether a person could tell what it is from this picture: the paper's criterion of success.
     pub recognisable: bool,
 }
+
+impl ObjectSighting {
+    /// Metres between two, on the floor.
+    pub fn distance_to(&self, other: &Self) -> f64 {
+        f64::hypot(self.x - other.x, self.y - other.y)
+    }
+}
