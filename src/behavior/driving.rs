@@ -3,7 +3,7 @@
 use super::beliefs::Furniture;
 use super::pilot::{Halt, Pilot, SWING_M, TICK_S};
 use super::route::{length, route};
-use crate::geometry::{Pose, Vec2, vec2, wrap_angle};
+use crate::geometry::{ClearanceGrid, Pose, Vec2, vec2, wrap_angle};
 use crate::robot::{SonarReading, p3dx};
 
 /// Ticks between two looks while driving.
@@ -14,6 +14,8 @@ const ROOMY_M: f64 = 0.52;
 const DETOUR: f64 = 1.25;
 /// What a route may shrink to before it is planned anew, metres.
 const LEAST_M: f64 = 0.39;
+/// Where there is no wider way, as through a door of 0.9 m, this must do, metres.
+const NARROW_M: f64 = LEAST_M + 0.01;
 /// Speeds and the braking they count on.
 const SPEED_M_S: f64 = 0.5;
 const CREEP_M_S: f64 = 0.1;
@@ -93,12 +95,14 @@ impl Pilot<'_> {
     /// The roomy way, unless it leads elsewhere or far about; when what the sonars met closes every way, without that.
     fn way_to(&mut self, goal: Vec2) -> Option<Vec<Vec2>> {
         let here = self.pose().position();
-        let mut narrow = route(&self.grid, here, goal, SWING_M);
+        let to_goal =
+            |grid: &ClearanceGrid| [SWING_M, NARROW_M].into_iter().find_map(|clear| route(grid, here, goal, clear));
+        let mut narrow = to_goal(&self.grid);
         if narrow.is_none() && !self.beliefs.bumps.is_empty() {
             self.because("what the sonars met leaves no way; it may have gone");
             self.beliefs.bumps.clear();
             self.rebuild_grid();
-            narrow = route(&self.grid, here, goal, SWING_M);
+            narrow = to_goal(&self.grid);
         }
         let narrow = narrow?;
         let (end, metres) = (narrow.last().copied().unwrap_or(here), length(here, &narrow));
