@@ -15,7 +15,7 @@ const BLOCK: usize = 64;
 /// Columns side by side in one instruction.
 const LANES: usize = 8;
 /// Before this column pieces are long for their distance, and integrate in closed form.
-const NEAR_COLUMNS: i32 = 8;
+const NEAR_COLUMNS: i32 = 6;
 
 /// Pieces in the order of the ray, one array per quantity.
 #[derive(Clone, Debug)]
@@ -90,6 +90,7 @@ fn columns(slope: f64, reach: (i32, i32), side: (i32, i32)) -> (i32, i32) {
 pub(super) struct Rays {
     forces: Vec<Force>,
     sums: Vec<f64>,
+    nodes: (Nodes<i32>, Nodes<i64>),
     pieces: [Pieces; 2],
 }
 
@@ -98,30 +99,47 @@ impl Rays {
     pub(super) fn new(forces: Vec<Force>) -> Self {
         let zeros = [0.0; BLOCK];
         let pieces = || Pieces { middle: [1.0; BLOCK], half: zeros, q: [zeros; 3] };
-        Self { sums: vec![0.0; forces.len()], forces, pieces: [pieces(), pieces()] }
+        Self {
+            sums: vec![0.0; forces.len()],
+            forces,
+            nodes: (Nodes::new(), Nodes::new()),
+            pieces: [pieces(), pieces()],
+        }
     }
 
     /// The resultant of each force in one direction, in units of cells.
     pub(super) fn resultants(&mut self, c: &Covariogram, sin: f64, cos: f64) -> impl Iterator<Item = f64> + '_ {
         let way = Way::new(&c.frame, sin, cos);
         self.sums.fill(0.0);
+        let Self { forces, sums, nodes, pieces } = self;
+        let mut ray = Ray { forces, sums, pieces, way };
         match &c.table {
-            Counts::Narrow(table) => self.follow(table, way),
-            Counts::Wide(table) => self.follow(table, way),
+            Counts::Narrow(table) => ray.follow(table, &mut nodes.0),
+            Counts::Wide(table) => ray.follow(table, &mut nodes.1),
         }
         let unit = c.unit;
         self.sums.iter().map(move |sum| sum * unit)
     }
+}
 
-    fn follow<T: Count>(&mut self, table: &[T], way: Way) {
+/// One ray, and the sums it adds to.
+struct Ray<'r> {
+    forces: &'r [Force],
+    sums: &'r mut [f64],
+    pieces: &'r mut [Pieces; 2],
+    way: Way,
+}
+
+impl Ray<'_> {
+    fn follow<T: Count>(&mut self, table: &[T], nodes: &mut Nodes<T>) {
+        let way = self.way;
         let (mut from, end) = way.columns;
-        let mut nodes = Nodes::new();
         while from < end {
             let to = if from < NEAR_COLUMNS { NEAR_COLUMNS.min(end) } else { (from + BLOCK as i32).min(end) };
             let count = (to - from) as usize;
-            enter(way, from, count, &mut nodes);
-            read_nodes(table, way, count, &mut nodes);
-            cut(&nodes, way, from, count, &mut self.pieces);
+            enter(way, from, count, nodes);
+            read_nodes(table, way, count, nodes);
+            cut(nodes, way, from, count, self.pieces);
             if from < NEAR_COLUMNS {
                 self.add_near(count)
             } else {
@@ -132,21 +150,21 @@ impl Rays {
     }
 
     fn add_near(&mut self, count: usize) {
-        for (force, sum) in self.forces.iter().zip(&mut self.sums) {
-            *sum += one_by_one(&self.pieces, count, *force);
+        for (force, sum) in self.forces.iter().zip(&mut *self.sums) {
+            *sum += one_by_one(self.pieces, count, *force);
         }
     }
 
     fn add_far(&mut self, count: usize) {
         let (first, last) = (&self.pieces[0], &self.pieces[1]);
         let (begin, end) = (first.middle[0] - first.half[0], last.middle[count - 1] + last.half[count - 1]);
-        for (force, sum) in self.forces.iter().zip(&mut self.sums) {
+        for (force, sum) in self.forces.iter().zip(&mut *self.sums) {
             *sum += match *force {
-                Force::Power(0.0) => constant(&self.pieces, count),
-                Force::Power(2.0) => gravitational(&self.pieces, count),
-                Force::Hybrid(y0) if end <= y0 => constant(&self.pieces, count) / (y0 * y0),
-                Force::Hybrid(y0) if begin >= y0 => gravitational(&self.pieces, count),
-                other => one_by_one(&self.pieces, count, other),
+                Force::Power(0.0) => constant(self.pieces, count),
+                Force::Power(2.0) => gravitational(self.pieces, count),
+                Force::Hybrid(y0) if end <= y0 => constant(self.pieces, count) / (y0 * y0),
+                Force::Hybrid(y0) if begin >= y0 => gravitational(self.pieces, count),
+                other => one_by_one(self.pieces, count, other),
             };
         }
     }
@@ -263,7 +281,7 @@ fn constant(pieces: &[Pieces; 2], count: usize) -> f64 {
     sums.iter().sum()
 }
 
-/// ∫ C(t)/t² dt over pieces with x = half/middle ≤ 1/16, by the series of its three moments.
+/// ∫ C(t)/t² dt over pieces with x = half/middle ≤ 1/12, by the series of its three moments: what is left out is below 1e-13.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn gravitational(pieces: &[Pieces; 2], count: usize) -> f64 {
     let mut sums = [0.0; LANES];
