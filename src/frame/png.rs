@@ -8,6 +8,25 @@ impl RgbdFrame {
         rgb_png(self.width, self.height, &self.color)
     }
 
+    /// The colour picture at half its size and in 16 steps a channel, so that many fit into one page.
+    pub fn thumbnail_png(&self) -> Vec<u8> {
+        const STEP: u32 = 17;
+        let (width, height) = (self.width / 2, self.height / 2);
+        if self.color.len() < self.width * self.height {
+            return Vec::new();
+        }
+        let pixel = |i: usize| {
+            let corner = 2 * (i / width) * self.width + 2 * (i % width);
+            let four = [corner, corner + 1, corner + self.width, corner + self.width + 1].map(|at| self.color[at]);
+            std::array::from_fn(|channel| {
+                let mean = four.iter().map(|pixel| u32::from(pixel[channel])).sum::<u32>() / 4;
+                ((mean + STEP / 2) / STEP * STEP) as u8
+            })
+        };
+        let pixels: Vec<[u8; 3]> = (0..width * height).map(pixel).collect();
+        rgb_png(width, height, &pixels)
+    }
+
     /// The depth picture as a 16-bit grey PNG file, in the frame's units.
     pub fn depth_png(&self) -> Vec<u8> {
         grey_png(self.width, self.height, &self.depth)

@@ -7,6 +7,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::{Home, Run};
 use crate::drawing::{Outline, Plot};
+use crate::frame::RgbdFrame;
 use crate::world::camera::{Kinect, SolidScene};
 
 /// Where the files go; `{id}` in a name stands for the record's id.
@@ -48,11 +49,10 @@ impl Outputs {
         plot.to_svg()
     }
 
-    /// What the robot's camera shows at the end of a trial, PNG.
-    pub fn take_picture(home: &Home, run: &Run) -> Vec<u8> {
+    /// What the robot's camera shows at the end of a trial.
+    pub fn take_picture(home: &Home, run: &Run) -> RgbdFrame {
         let solids = SolidScene::new(&home.map, &home.scene);
-        let (frame, _) = Kinect::default().capture(&solids, run.final_pose, &mut ChaCha8Rng::seed_from_u64(0));
-        frame.color_png()
+        Kinect::default().capture(&solids, run.final_pose, &mut ChaCha8Rng::seed_from_u64(0)).0
     }
 }
 

@@ -35,7 +35,7 @@ impl Driver {
         self.leave(&mut run, record, id)?;
         record.set("trial", &run.trial);
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
-        recorder.finish(&run, Outputs::take_picture(&self.home, &run), &line).map_err(failed)
+        recorder.finish(&run, Outputs::take_picture(&self.home, &run).color_png(), &line).map_err(failed)
     }
 
     /// Writes the plot and the picture.
@@ -49,7 +49,7 @@ impl Driver {
         if let Some(folder) = &self.outputs.picture {
             let name = format!("{}.png", file_name(id));
             std::fs::create_dir_all(folder).map_err(|e| StageError::new(format!("{}: {e}", folder.display())))?;
-            let png = Outputs::take_picture(&self.home, run);
+            let png = Outputs::take_picture(&self.home, run).color_png();
             write_file(&folder.join(&name), &png, self.outputs.force).map_err(failed)?;
             run.trial.picture = Some(name);
         }

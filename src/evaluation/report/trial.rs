@@ -70,7 +70,7 @@ fn way(case: &Case, home: &Home) -> String {
 }
 
 fn last_picture(case: &Case, home: &Home) -> String {
-    let png = Outputs::take_picture(home, &case.run);
+    let png = Outputs::take_picture(home, &case.run).thumbnail_png();
     let alternative = format!("What the robot's camera shows at the end: {}", case.run.trial.why);
     picture("image/png", &png, &alternative, "The last picture")
 }
