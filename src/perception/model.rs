@@ -4,28 +4,13 @@ use std::sync::{Arc, LazyLock};
 
 use super::forest::{Forest, take};
 use crate::world::Size;
+use crate::world::families::FAMILIES;
 
 /// The first bytes of a model file.
 const MAGIC: &[u8; 8] = b"SFPERC02";
-/// The categories a piece may be of; after them comes "none of these".
-pub const CATEGORIES: [&str; 16] = [
-    "table",
-    "coffee_table",
-    "desk",
-    "nightstand",
-    "chair",
-    "armchair",
-    "stool",
-    "couch",
-    "bed",
-    "wardrobe",
-    "dresser",
-    "bookshelf",
-    "shelf",
-    "cabinet",
-    "tv_stand",
-    "lamp",
-];
+/// The categories a piece may be of, those it is trained on; after them comes "none of these". Their order is that of a
+/// model file.
+pub const CATEGORIES: [&str; FAMILIES.len()] = FAMILIES;
 /// The class of what is no furniture.
 pub const NOTHING: usize = CATEGORIES.len();
 
