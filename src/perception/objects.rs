@@ -4,7 +4,7 @@
 //! colour against the plate's does not. What an object is, is told by holding
 //! its size, height and colour against the usual ones of [`OBJECTS`].
 
-use std::collections::HashMap;
+use std::ops::Range;
 
 use super::ObjectSighting;
 use crate::frame::RgbdFrame;
@@ -52,13 +52,15 @@ impl Geometry<'_> {
         [0, 1, 2].map(|k| self.frame.world_from_camera[k][3])
     }
 
-    fn point(&self, column: usize, row: usize) -> Option<[f64; 3]> {
-        let depth = self.frame.depth[row * self.frame.width + column];
-        if depth == 0 {
-            return None;
-        }
-        let (eye, ray, z) = (self.eye(), self.ray(column, row), f64::from(depth) * self.frame.depth_unit_m);
-        Some([0, 1, 2].map(|k| eye[k] + ray[k] * z))
+    /// The points of a row from one column on, with their columns and depths in metres.
+    fn points(&self, row: usize, columns: Range<usize>) -> impl Iterator<Item = (usize, [f64; 3], f64)> {
+        let (eye, first) = (self.eye(), self.ray(columns.start, row));
+        let step = [0, 1, 2].map(|k| self.frame.world_from_camera[k][0] / self.frame.intrinsics.fx);
+        let depths = &self.frame.depth[row * self.frame.width..][columns.clone()];
+        columns.clone().zip(depths).filter(|(_, depth)| **depth > 0).map(move |(column, &depth)| {
+            let (z, on) = (f64::from(depth) * self.frame.depth_unit_m, (column - columns.start) as f64);
+            (column, [0, 1, 2].map(|k| eye[k] + (first[k] + on * step[k]) * z), z)
+        })
     }
 
     /// Column and row of a point; nothing behind the camera.
@@ -108,10 +110,10 @@ fn on_top(frame: &RgbdFrame, detection: &Detection) -> Vec<ObjectSighting> {
     let geometry = Geometry { frame };
     let footprint = Polygon::new(detection.footprint.iter().map(|&[x, y]| vec2(x, y)).collect());
     let Some(window) = window(&geometry, &footprint) else { return Vec::new() };
-    let points = points_over(&geometry, &footprint, window);
+    let points = points_over(&geometry, &Inside::of(&footprint), window);
     let Some(plate) = plate_height(&points) else { return Vec::new() };
-    let spots = spots(frame, &footprint, &points, plate);
-    blobs(spots, frame.width).iter().filter_map(|blob| sighting(&geometry, blob)).collect()
+    let spots = spots(frame, &points, plate);
+    blobs(&spots, window).iter().filter_map(|blob| sighting(&geometry, blob)).collect()
 }
 
 /// Columns and rows in which a footprint can show, from the floor to the tallest object.
@@ -133,28 +135,33 @@ fn window(geometry: &Geometry, footprint: &Polygon) -> Option<[usize; 4]> {
 /// The points in the window that lie over the footprint less its rim, with their pixels and depths.
 fn points_over(
     geometry: &Geometry,
-    footprint: &Polygon,
+    inside: &Inside,
     [left, top, right, low]: [usize; 4],
 ) -> Vec<(usize, usize, [f64; 3], f64)> {
-    let mut points = Vec::new();
-    for row in top..low {
-        for column in left..right {
-            let Some(point) = geometry.point(column, row) else { continue };
-            if point[2] > PLATE_M.0 && point[2] < PLATE_M.1 + TALLEST_M && inside(footprint, vec2(point[0], point[1])) {
-                let depth = f64::from(geometry.frame.depth[row * geometry.frame.width + column]);
-                points.push((column, row, point, depth * geometry.frame.depth_unit_m));
-            }
-        }
-    }
-    points
+    let heights = PLATE_M.0..PLATE_M.1 + TALLEST_M;
+    let over = |(_, point, _): &(usize, [f64; 3], f64)| heights.contains(&point[2]) && inside.has(point[0], point[1]);
+    let row = |row: usize| {
+        geometry.points(row, left..right).filter(over).map(move |(column, point, depth)| (column, row, point, depth))
+    };
+    (top..low).flat_map(row).collect()
 }
 
-/// Within a convex outline by more than the rim.
-fn inside(footprint: &Polygon, point: Vec2) -> bool {
-    footprint.edges().all(|(a, b)| {
-        let along = (b - a).normalize();
-        along.x * (point.y - a.y) - along.y * (point.x - a.x) > RIM_M
-    })
+/// Where a point is within a convex outline by more than the rim: of each edge the direction inward and the distance.
+struct Inside(Vec<(Vec2, f64)>);
+
+impl Inside {
+    fn of(footprint: &Polygon) -> Self {
+        let edge = |(a, b): (Vec2, Vec2)| {
+            let along = (b - a).normalize();
+            let inward = vec2(-along.y, along.x);
+            (inward, inward.dot(&a) + RIM_M)
+        };
+        Self(footprint.edges().map(edge).collect())
+    }
+
+    fn has(&self, x: f64, y: f64) -> bool {
+        self.0.iter().all(|(inward, least)| inward.x * x + inward.y * y > *least)
+    }
 }
 
 /// The height at which most points lie.
@@ -178,7 +185,7 @@ fn plate_height(points: &[(usize, usize, [f64; 3], f64)]) -> Option<f64> {
 }
 
 /// The pixels that stand above the plate, or differ from it in colour.
-fn spots(frame: &RgbdFrame, footprint: &Polygon, points: &[(usize, usize, [f64; 3], f64)], plate: f64) -> Vec<Spot> {
+fn spots(frame: &RgbdFrame, points: &[(usize, usize, [f64; 3], f64)], plate: f64) -> Vec<Spot> {
     // The noise and the steps of depth grow with its square.
     let tolerance = |depth: f64| 0.014 + 0.005 * depth * depth;
     let flat = points.iter().filter(|p| (p.2[2] - plate).abs() < tolerance(p.3));
@@ -192,7 +199,7 @@ fn spots(frame: &RgbdFrame, footprint: &Polygon, points: &[(usize, usize, [f64; 
         let marked = above.abs() <= tolerance(depth) && contrast > CONTRAST;
         (tall || marked).then_some(Spot { column, row, at, height: if tall { above } else { 0.0 } })
     };
-    points.iter().filter_map(spot).filter(|spot| inside(footprint, spot.at)).collect()
+    points.iter().filter_map(spot).collect()
 }
 
 fn median_color(colors: impl Iterator<Item = [u8; 3]>) -> Option<[u8; 3]> {
@@ -206,32 +213,52 @@ fn median_color(colors: impl Iterator<Item = [u8; 3]>) -> Option<[u8; 3]> {
 }
 
 /// Groups of spots that touch in the picture, over gaps of three pixels.
-fn blobs(spots: Vec<Spot>, width: usize) -> Vec<Vec<Spot>> {
-    let mut free: HashMap<usize, Spot> = spots.iter().map(|spot| (spot.row * width + spot.column, *spot)).collect();
-    let mut blobs = Vec::new();
-    for start in spots {
-        let blob = grown(start, &mut free, width);
-        if blob.len() >= FEWEST_PIXELS {
-            blobs.push(blob);
-        }
+fn blobs(spots: &[Spot], [left, top, right, low]: [usize; 4]) -> Vec<Vec<Spot>> {
+    let width = right - left;
+    let mut free = Free { width, spot_at: vec![NO_SPOT; width * (low - top)], corner: (left, top) };
+    for (number, spot) in (0_u32..).zip(spots) {
+        free.spot_at[(spot.row - top) * width + spot.column - left] = number;
     }
-    blobs
+    let blobs = spots.iter().map(|start| free.blob_of(start, spots));
+    blobs.filter(|blob| blob.len() >= FEWEST_PIXELS).collect()
 }
 
-/// Takes a spot and all that touch it, directly or through others, out of those that are free.
-fn grown(start: Spot, free: &mut HashMap<usize, Spot>, width: usize) -> Vec<Spot> {
-    const GAP: usize = 3;
-    let mut blob = Vec::new();
-    let mut next: Vec<Spot> = free.remove(&(start.row * width + start.column)).into_iter().collect();
-    while let Some(spot) = next.pop() {
-        blob.push(spot);
-        for row in spot.row.saturating_sub(GAP)..=spot.row + GAP {
-            for column in spot.column.saturating_sub(GAP)..=(spot.column + GAP).min(width - 1) {
-                next.extend(free.remove(&(row * width + column)));
+/// A pixel without a spot that is free.
+const NO_SPOT: u32 = u32::MAX;
+
+/// The spots of a window that belong to no blob yet.
+struct Free {
+    width: usize,
+    /// The number of the spot at each pixel of the window.
+    spot_at: Vec<u32>,
+    /// Column and row of the window's first pixel.
+    corner: (usize, usize),
+}
+
+impl Free {
+    /// Takes out a spot and all that touch it, directly or through others.
+    fn blob_of(&mut self, start: &Spot, spots: &[Spot]) -> Vec<Spot> {
+        const GAP: usize = 3;
+        let (left, top) = self.corner;
+        let rows = self.spot_at.len() / self.width;
+        let mut blob = Vec::new();
+        let mut waiting = Vec::new();
+        let mut take = |at: usize, waiting: &mut Vec<u32>| {
+            let number = std::mem::replace(&mut self.spot_at[at], NO_SPOT);
+            waiting.extend((number != NO_SPOT).then_some(number));
+        };
+        take((start.row - top) * self.width + start.column - left, &mut waiting);
+        while let Some(spot) = waiting.pop().map(|number| spots[number as usize]) {
+            blob.push(spot);
+            let (column, row) = (spot.column - left, spot.row - top);
+            for row in row.saturating_sub(GAP)..=(row + GAP).min(rows - 1) {
+                for column in column.saturating_sub(GAP)..=(column + GAP).min(self.width - 1) {
+                    take(row * self.width + column, &mut waiting);
+                }
             }
         }
+        blob
     }
-    blob
 }
 
 /// What a blob looks like.
