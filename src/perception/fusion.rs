@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::detector::rounded;
+use super::detector::{overlap, rounded};
 use crate::geometry::{Polygon, Pose, Vec2, vec2, wrap_angle};
 use crate::record::Detection;
 
@@ -23,12 +23,16 @@ const MOST_HEIGHT_M: f64 = 0.6;
 #[derive(Clone, Debug, Default)]
 pub struct FurnitureMap {
     tracks: Vec<Track>,
+    /// Frames so far.
+    frames: usize,
 }
 
 /// One piece, and every view of it.
 #[derive(Clone, Debug)]
 struct Track {
     views: Vec<Detection>,
+    /// The frame of each view.
+    frames: Vec<usize>,
 }
 
 impl FurnitureMap {
@@ -38,10 +42,8 @@ impl FurnitureMap {
         let fused: Vec<Detection> = self.tracks.iter().map(Track::fused).collect();
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
         for (i, detection) in furniture.iter().enumerate() {
-            let shared = |track: &Detection| shared(track, detection);
-            pairs.extend(
-                fused.iter().enumerate().map(|(j, track)| (shared(track), i, j)).filter(|p| p.0 > LEAST_SHARED),
-            );
+            let one = fused.iter().enumerate().filter(|(_, track)| shared(track, detection) > LEAST_SHARED);
+            pairs.extend(one.map(|(j, track)| (likeness(track, detection), i, j)));
         }
         pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
         let mut taken = vec![false; furniture.len()];
@@ -50,10 +52,13 @@ impl FurnitureMap {
             if !taken[i] && !matched[j] {
                 (taken[i], matched[j]) = (true, true);
                 self.tracks[j].views.push(furniture[i].clone());
+                self.tracks[j].frames.push(self.frames);
             }
         }
         let fresh = furniture.iter().zip(&taken).filter(|(_, taken)| !**taken);
-        self.tracks.extend(fresh.map(|(detection, _)| Track { views: vec![detection.clone()] }));
+        let frames = vec![self.frames];
+        self.tracks.extend(fresh.map(|(view, _)| Track { views: vec![view.clone()], frames: frames.clone() }));
+        self.frames += 1;
     }
 
     /// What stands in the room, the surest first.
@@ -65,17 +70,21 @@ impl FurnitureMap {
         furniture
     }
 
-    /// Two tracks that began apart and grew into one another are one.
+    /// Two tracks that began apart and grew into one another are one, unless one frame showed both, one on the other: a lamp on its table.
     fn join_doubles(&mut self) {
         let mut first = 0;
         while first < self.tracks.len() {
             let mine = self.tracks[first].fused();
             let rest = first + 1..self.tracks.len();
-            let double = rest.into_iter().find(|other| shared(&mine, &self.tracks[*other].fused()) > 0.6);
+            let double = rest.into_iter().find(|other| {
+                let (other, their) = (&self.tracks[*other], self.tracks[*other].fused());
+                shared(&mine, &their) > 0.6 && !(is_on(&mine, &their) && self.tracks[first].was_seen_with(other))
+            });
             match double {
                 Some(other) => {
                     let gone = self.tracks.remove(other);
                     self.tracks[first].views.extend(gone.views);
+                    self.tracks[first].frames.extend(gone.frames);
                 }
                 None => first += 1,
             }
@@ -84,6 +93,10 @@ impl FurnitureMap {
 }
 
 impl Track {
+    fn was_seen_with(&self, other: &Self) -> bool {
+        self.frames.iter().any(|frame| other.frames.contains(frame))
+    }
+
     fn fused(&self) -> Detection {
         let scores = self.scores();
         let best = scores.iter().fold(("", 0.0), |best, (name, p)| if *p > best.1 { (name, *p) } else { best });
@@ -163,6 +176,17 @@ fn heading(detection: &Detection) -> f64 {
         [a, b, ..] if detection.footprint.len() == 4 => (b[1] - a[1]).atan2(b[0] - a[0]),
         _ => 0.0,
     })
+}
+
+/// How well two that may be one agree in footprint and height.
+fn likeness(a: &Detection, b: &Detection) -> f64 {
+    overlap(a, b) + 0.5 * (1.0 - (a.height - b.height).abs() / MOST_HEIGHT_M)
+}
+
+/// Whether one may stand on the other: it is much smaller.
+fn is_on(a: &Detection, b: &Detection) -> bool {
+    let (a, b) = (a.length * a.width, b.length * b.width);
+    a.min(b) < 0.4 * a.max(b)
 }
 
 /// Share of the smaller footprint that lies in both, zero for things of very different height.
