@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::describe::describe;
 use super::floor_grid::{FloorGrid, project};
 use super::footprint::Footprint;
+use super::forest::Forest;
 use super::front::{Facing, Hidden, facings, hidden_sides};
 use super::joining::Joining;
 use super::measures::{Measured, measure};
@@ -12,6 +13,7 @@ use super::model::{CATEGORIES, Model, NOTHING};
 use super::objects::sightings;
 use super::patches::patches;
 use super::points::{Points, points};
+use super::reconsider::reconsider;
 use super::segment::{Segment, Segments, segments};
 use super::tabletop::things;
 use super::walls::{Wall, furniture_cells, walls};
@@ -24,7 +26,7 @@ use crate::world::{OBJECTS, RoomMap};
 /// Two sightings of one name nearer than this are of one object, metres.
 const SAME_M: f64 = 0.15;
 /// What is likelier no furniture than this is left out.
-const MOST_NOTHING: f32 = 0.5;
+const MOST_NOTHING: f32 = 0.75;
 /// An object is named only when its name is at least this likely.
 const LEAST_NAME: f32 = 0.35;
 /// The training rooms show so much more clutter on tops – edges, shades, patterns – than a top has objects.
@@ -60,12 +62,15 @@ pub(super) fn surfaces(frame: &RgbdFrame, map: Option<&RoomMap>) -> (Points, Flo
     (points, grid, walls, joining)
 }
 
-/// Takes a frame apart into pieces.
-pub(super) fn parts(frame: &RgbdFrame, map: Option<&RoomMap>, forest: &super::forest::Forest) -> Parts {
+/// Takes a frame apart into pieces; with a classifier pieces that only together look like something are joined too.
+pub(super) fn parts(frame: &RgbdFrame, map: Option<&RoomMap>, joins: &Forest, category: Option<&Forest>) -> Parts {
     let (points, grid, walls, mut joining) = surfaces(frame, map);
-    joining.run(forest);
+    joining.run(joins);
     joining.bridge(&grid);
-    joining.run(forest);
+    joining.run(joins);
+    if let Some(category) = category {
+        reconsider(&mut joining, (&grid, &points, &walls), (joins, category));
+    }
     let groups = joining.patches.into_iter().map(|patch| (patch.cells, patch.sums)).collect();
     let segments = segments(&grid, &points, groups);
     Parts { points, grid, walls, segments }
@@ -79,7 +84,7 @@ impl Detector {
 
     /// What one frame shows, in the frame's world; `map` tells which surfaces are walls.
     pub fn detect(&self, frame: &RgbdFrame, map: Option<&RoomMap>) -> View {
-        let parts = parts(frame, map, &self.model.joining);
+        let parts = parts(frame, map, &self.model.joining, Some(&self.model.category));
         let (mut furniture, mut objects) = (Vec::new(), Vec::new());
         for (number, piece) in (0_u32..).zip(&parts.segments.pieces) {
             let measured = measure(&parts.grid, &parts.walls, piece);

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::picture_files::{load_color, load_depth};
+use super::upright::camera_over_floor;
 use crate::frame::{Intrinsics, RgbdFrame, steady};
 
 /// A frame whose pictures lie in files.
@@ -31,9 +32,10 @@ pub struct FrameFiles {
     pub cy: f64,
     /// Metres per unit of depth.
     pub depth_unit_m: f64,
-    /// Camera optical frame (x right, y down, z ahead) to world (z up), 4 × 4 by rows.
-    #[serde(rename = "T_world_cam")]
-    pub world_from_camera: [[f64; 4]; 4],
+    /// Camera optical frame (x right, y down, z ahead) to world (z up), 4 × 4 by rows; without it the floor in the
+    /// picture tells height and tilt, and the camera stands at the origin.
+    #[serde(rename = "T_world_cam", default, skip_serializing_if = "Option::is_none")]
+    pub world_from_camera: Option<[[f64; 4]; 4]>,
 }
 
 /// Why a frame cannot be used.
@@ -68,17 +70,18 @@ impl FrameFiles {
             size(&path, w, h, "the depth", (width, height))?;
             color = pixels;
         }
-        let frame = RgbdFrame {
-            width,
-            height,
-            color,
-            depth,
-            depth_unit_m: self.depth_unit_m,
-            intrinsics: Intrinsics { fx: self.fx, fy: self.fy, cx: self.cx, cy: self.cy },
-            world_from_camera: steady(self.world_from_camera),
-        };
-        Ok(frame)
+        let (depth_unit_m, intrinsics) =
+            (self.depth_unit_m, Intrinsics { fx: self.fx, fy: self.fy, cx: self.cx, cy: self.cy });
+        let over_floor = || camera_over_floor(&depth, width, &intrinsics, depth_unit_m).ok_or_else(no_floor);
+        let world_from_camera = self.world_from_camera.map_or_else(over_floor, Ok)?;
+        let world_from_camera = steady(world_from_camera);
+        Ok(RgbdFrame { width, height, color, depth, depth_unit_m, intrinsics, world_from_camera })
     }
+}
+
+fn no_floor() -> FrameError {
+    let what = "no `T_world_cam`, and no floor shows from which it could be told; give the camera's pose";
+    FrameError::Wrong(what.to_string())
 }
 
 /// Checks the numbers of a frame from any source.

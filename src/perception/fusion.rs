@@ -244,4 +244,21 @@ mod tests {
         map.add(&[seen("table", 0.8, "desk", 0.05), seen("table", 0.8, "desk", 0.95)]);
         assert_eq!(map.furniture().len(), 2);
     }
+
+    #[test]
+    fn a_lamp_stays_apart_from_the_nightstand_it_stands_on() {
+        let lamp = |x: f64| Detection { height: 1.1, ..small(seen("lamp", 0.7, "chair", x), 0.2) };
+        let stand = |x: f64| small(seen("nightstand", 0.8, "stool", x), 0.5);
+        let mut map = FurnitureMap::default();
+        map.add(&[stand(0.0), lamp(0.05)]);
+        map.add(&[lamp(0.04), stand(0.02)]);
+        let categories: Vec<String> = map.furniture().into_iter().map(|piece| piece.category).collect();
+        assert_eq!(categories, ["nightstand", "lamp"]);
+    }
+
+    fn small(detection: Detection, side: f64) -> Detection {
+        let pose = Pose::new(detection.x, detection.y, 0.0);
+        let footprint = Polygon::rectangle(pose, side, side).corners().iter().map(|c| [c.x, c.y]).collect();
+        Detection { length: side, width: side, footprint, ..detection }
+    }
 }

@@ -31,6 +31,7 @@ mod overlay;
 mod patches;
 mod picture_files;
 mod points;
+mod reconsider;
 mod rectangle;
 mod scenes;
 mod segment;
@@ -39,6 +40,7 @@ mod stage;
 mod tabletop;
 pub mod training;
 pub mod truth;
+mod upright;
 mod walls;
 
 pub use detector::Detector;

@@ -30,7 +30,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// The model that is shipped; `perceive train` makes it anew.
+    /// The model that is shipped; `evaluate train` makes it anew.
     pub fn shipped() -> Arc<Self> {
         static SHIPPED: LazyLock<Arc<Model>> = LazyLock::new(|| {
             // Embedded and tested: it cannot fail.

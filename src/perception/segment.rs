@@ -7,7 +7,7 @@ use super::rectangle::{Rectangle, closest_rectangle};
 use crate::geometry::Vec2;
 
 /// Fewer cells are clutter, about 12 × 12 cm.
-const LEAST_CELLS: usize = 24;
+pub const LEAST_CELLS: usize = 24;
 /// Lower is a rug or a shoe, metres.
 const LEAST_HEIGHT_M: f64 = 0.22;
 
@@ -29,7 +29,7 @@ pub struct Segment {
 }
 
 /// Sampled pixels of a piece in the picture.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Pixels {
     /// All.
     pub count: u32,
@@ -57,16 +57,25 @@ pub fn segments(grid: &FloorGrid, points: &Points, groups: Vec<(Vec<u32>, Sums)>
         cells.sort_unstable();
         let number = pieces.len() as u32;
         cells.iter().for_each(|cell| piece_of[*cell as usize] = number);
-        match segment(grid, &piece_of, number, &cells, sums) {
+        let is_own = |cell: usize| piece_of.get(cell) == Some(&number);
+        match segment(grid, is_own, &cells, sums, Pixels::default()) {
             Some(piece) => pieces.push(piece),
             None => cells.iter().for_each(|cell| piece_of[*cell as usize] = NONE),
         }
     }
-    count_pixels(grid, points, &piece_of, &mut pieces);
+    let pixels = group_pixels(grid, points, &piece_of, pieces.len());
+    pieces.iter_mut().zip(pixels).for_each(|(piece, pixels)| piece.pixels = pixels);
     Segments { pieces, piece_of }
 }
 
-fn segment(grid: &FloorGrid, piece_of: &[u32], number: u32, cells: &[u32], sums: Sums) -> Option<Segment> {
+/// A piece of sorted cells; nothing for what is too low or has no extent.
+pub fn segment(
+    grid: &FloorGrid,
+    is_own: impl Fn(usize) -> bool,
+    cells: &[u32],
+    sums: Sums,
+    pixels: Pixels,
+) -> Option<Segment> {
     let mut tops: Vec<f32> = cells.iter().map(|cell| grid.cells[*cell as usize].top).collect();
     tops.sort_by(f32::total_cmp);
     if f64::from(tops[tops.len() * 97 / 100]) < LEAST_HEIGHT_M {
@@ -75,28 +84,42 @@ fn segment(grid: &FloorGrid, piece_of: &[u32], number: u32, cells: &[u32], sums:
     let borders = |cell: &&u32| {
         let at = **cell as usize;
         let beside = [at.wrapping_sub(1), at + 1, at.wrapping_sub(grid.width), at + grid.width];
-        beside.iter().any(|next| piece_of.get(*next).is_none_or(|piece| *piece != number))
+        beside.iter().any(|next| !is_own(*next))
     };
     let outline: Vec<Vec2> = cells.iter().filter(borders).map(|cell| grid.centre(*cell as usize)).collect();
     let rectangle = closest_rectangle(&outline)?;
-    Some(Segment { cells: cells.to_vec(), sums, outline, rectangle, tops, pixels: Pixels::default() })
+    Some(Segment { cells: cells.to_vec(), sums, outline, rectangle, tops, pixels })
 }
 
-fn count_pixels(grid: &FloorGrid, points: &Points, piece_of: &[u32], pieces: &mut [Segment]) {
-    for piece in pieces.iter_mut() {
-        piece.pixels.bounds = [u32::MAX, 0, u32::MAX, 0];
-    }
+/// The pixels of each of so many groups of cells.
+pub fn group_pixels(grid: &FloorGrid, points: &Points, group_of: &[u32], groups: usize) -> Vec<Pixels> {
+    let mut all = vec![Pixels::default(); groups];
     let last = [points.columns - 1, points.rows - 1];
     for (at, cell) in grid.cell_of.iter().enumerate().filter(|(_, cell)| **cell != NOWHERE) {
-        let Some(piece) = pieces.get_mut(piece_of[*cell as usize] as usize) else { continue };
+        let Some(pixels) = all.get_mut(group_of[*cell as usize] as usize) else { continue };
         let (column, row) = (at % points.columns, at / points.columns);
-        let pixels = &mut piece.pixels;
-        pixels.count += 1;
-        let edges = [column < 2, column + 2 > last[0], row < 2, row + 2 > last[1]];
-        (0..4).for_each(|i| pixels.at_edge[i] += u32::from(edges[i]));
-        let [left, right, above, below] = pixels.bounds;
+        let edges = [column < 2, column + 2 > last[0], row < 2, row + 2 > last[1]].map(u32::from);
         let (c, r) = (column as u32, row as u32);
-        pixels.bounds = [left.min(c), right.max(c), above.min(r), below.max(r)];
+        *pixels = pixels.joined(&Pixels { count: 1, at_edge: edges, bounds: [c, c, r, r] });
+    }
+    all
+}
+
+impl Default for Pixels {
+    fn default() -> Self {
+        Self { count: 0, at_edge: [0; 4], bounds: [u32::MAX, 0, u32::MAX, 0] }
+    }
+}
+
+impl Pixels {
+    /// Those of both.
+    pub fn joined(&self, other: &Self) -> Self {
+        let ([left, right, above, below], [l, r, a, b]) = (self.bounds, other.bounds);
+        Self {
+            count: self.count + other.count,
+            at_edge: [0, 1, 2, 3].map(|i| self.at_edge[i] + other.at_edge[i]),
+            bounds: [left.min(l), right.max(r), above.min(a), below.max(b)],
+        }
     }
 }
 

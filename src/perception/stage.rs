@@ -69,7 +69,7 @@ impl Perceiver {
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
         let files: FrameFiles = serde_json::from_str(&line).map_err(|error| {
             let what = crate::record::message_without_position(&error);
-            StageError::new(format!("{what}; a frame needs depth, fx, fy, cx, cy, depth_unit_m and T_world_cam"))
+            StageError::new(format!("{what}; a frame needs depth, fx, fy, cx, cy and depth_unit_m"))
         })?;
         let frame = files.load(&self.folder).map_err(|error| StageError::new(error.to_string()))?;
         let name = record.get::<String>("frame")?;

@@ -1,4 +1,4 @@
-//! Learning from rendered rooms: the shipped model is made here, bit for bit, by `perceive train`.
+//! Learning from rendered rooms: the shipped model is made here, bit for bit, by `evaluate train`.
 //!
 //! Examples are the pieces that our own segmentation makes of noisy frames, not
 //! perfect masks: a merged or cut piece is what the classifier will meet.
@@ -211,7 +211,7 @@ fn truths<'l>(labelled: &'l Labelled, parts: &Parts) -> Vec<(usize, Option<&'l T
 
 /// The pieces of a frame, and the things on them.
 fn piece_examples(labelled: &Labelled, joining: &Forest) -> Vec<(Lesson, Example)> {
-    let parts = parts(&labelled.frame.rgbd, None, joining);
+    let parts = parts(&labelled.frame.rgbd, None, joining, None);
     let mut examples = Vec::new();
     let truths = truths(labelled, &parts);
     for (piece, (class, _)) in parts.segments.pieces.iter().zip(truths) {
@@ -226,7 +226,7 @@ fn piece_examples(labelled: &Labelled, joining: &Forest) -> Vec<(Lesson, Example
 }
 
 fn front_examples(labelled: &Labelled, joining: &Forest, category: &Forest) -> Vec<(Lesson, Example)> {
-    let parts = parts(&labelled.frame.rgbd, None, joining);
+    let parts = parts(&labelled.frame.rgbd, None, joining, None);
     let mut examples = Vec::new();
     let truths = truths(labelled, &parts);
     for ((number, piece), (_, item)) in (0_u32..).zip(&parts.segments.pieces).zip(truths) {

@@ -203,9 +203,6 @@ fn is_wall(wall: &Wall, grid: &FloorGrid, high: &[Vec2]) -> bool {
     let along = (b - a) / length;
     let tallest = high.iter().filter(|p| wall.distance(**p) < 0.15).filter_map(|p| grid.index(*p));
     let above = tallest.filter(|index| grid.cells[*index].top > ABOVE_FURNITURE_M).count();
-    if above > 12 {
-        return true;
-    }
     let away = vec2(along.y, -along.x);
     let open = |end: Vec2, outward: Vec2| {
         let places = (0..24).flat_map(|i| (0..24).map(move |j| (0.08 + 0.025 * f64::from(i), f64::from(j) * 0.025)));
@@ -217,10 +214,11 @@ fn is_wall(wall: &Wall, grid: &FloorGrid, high: &[Vec2]) -> bool {
         seen.count() > 8
     };
     let (left, right) = (open(a, -along), open(b, along));
+    let tall = above > 12;
     match (left, right) {
         (false, false) => true,
-        (true, true) => length > 3.4,
-        _ => length > 2.6,
+        (true, true) => length > if tall { 2.6 } else { 3.4 },
+        _ => tall || length > 2.6,
     }
 }
 

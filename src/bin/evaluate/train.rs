@@ -12,7 +12,7 @@ use spatial_fetch::perception::training::{Schooling, train};
 #[derive(Args)]
 pub struct Arguments {
     /// Frames to learn the categories from; half as many again are rendered for joining and fronts
-    #[arg(long, value_name = "N", default_value_t = 900)]
+    #[arg(long, value_name = "N", default_value_t = 3000)]
     count: u64,
     #[command(flatten)]
     pub common: Common,

@@ -1,17 +1,18 @@
 //! Beds: a mattress on a frame, head at the rear.
 
 use super::dice::Dice;
-use super::finishes::{linen, shade, upholstered, wooden};
+use super::finishes::{linen, metal, shade, upholstered, wooden};
 use super::parts::{block, cushion, legs};
 use crate::world::camera::{Finish, Frustum};
 
 /// A bed for one or two, with or without headboard and footboard; its foot is its front.
 pub fn bed(dice: &mut Dice) -> Vec<Frustum> {
     let w = if dice.chance(0.45) { dice.between(0.8, 1.25) } else { dice.between(1.3, 2.0) } / 2.0;
-    let l = dice.between(1.85, 2.15) / 2.0;
+    let l = if dice.chance(0.1) { dice.between(1.45, 1.85) } else { dice.between(1.85, 2.15) } / 2.0;
     let frame = if dice.chance(0.25) { upholstered(dice) } else { wooden(dice) };
-    let top = dice.between(0.38, 0.66);
-    let mattress = dice.between(0.14, 0.28).min(top - 0.12);
+    let top = if dice.chance(0.25) { dice.between(0.6, 0.85) } else { dice.between(0.36, 0.64) };
+    let thickest = if top > 0.6 { 0.5 } else { 0.28 };
+    let mattress = dice.between(0.14, thickest).min(top - 0.12);
     let rail = top - mattress;
     let mut parts = Vec::new();
     let rim = dice.between(0.0, 0.05);
@@ -22,7 +23,20 @@ pub fn bed(dice: &mut Dice) -> Vec<Frustum> {
         parts.push(block((-l, l), (-w - rim, w + rim), (0.0, rail), frame));
     }
     parts.extend(bedding(dice, l, w, (rail, top)));
-    parts.extend(boards(dice, l, w + rim, top, frame));
+    if dice.chance(0.25) {
+        parts.extend(barred_ends(dice, l, w + rim, top));
+    } else {
+        parts.extend(boards(dice, l, w + rim, top, frame));
+    }
+    if dice.chance(0.1) {
+        let (from, to) = (dice.between(-0.9, -0.2) * l, dice.between(0.0, 0.9) * l);
+        for y in [-w - rim, w + rim - 0.025] {
+            let high = top + dice.between(0.1, 0.3);
+            parts.push(block((from, to), (y, y + 0.025), (high - 0.12, high), frame));
+            parts.push(block((from, from + 0.04), (y, y + 0.025), (rail, high), frame));
+            parts.push(block((to - 0.04, to), (y, y + 0.025), (rail, high), frame));
+        }
+    }
     parts
 }
 
@@ -60,6 +74,28 @@ fn boards(dice: &mut Dice, l: f64, w: f64, top: f64, frame: Finish) -> Vec<Frust
         let thick = dice.between(0.03, 0.07);
         let high = top + dice.between(-0.15, 0.3);
         parts.push(block((l + 0.03, l + 0.03 + thick), (-w, w), (0.0, high), shade(frame, 0.95)));
+    }
+    parts
+}
+
+/// Bars of steel or wood at the head, and often at the foot.
+fn barred_ends(dice: &mut Dice, l: f64, w: f64, top: f64) -> Vec<Frustum> {
+    let finish = if dice.chance(0.7) { metal(dice) } else { wooden(dice) };
+    let thick = dice.between(0.02, 0.045);
+    let bars = dice.whole(3, 9);
+    let mut parts = Vec::new();
+    let mut end = |x: f64, high: f64| {
+        let x = (x, x + thick);
+        for i in 0..=bars {
+            let y = -w + (2.0 * w - thick) * i as f64 / bars as f64;
+            parts.push(block(x, (y, y + thick), (0.0, high), finish));
+        }
+        parts.push(block(x, (-w, w), (high - thick, high), finish));
+        parts.push(block(x, (-w, w), (0.5 * top, 0.5 * top + thick), finish));
+    };
+    end(-l - thick, top + dice.between(0.25, 0.75));
+    if dice.chance(0.6) {
+        end(l, top + dice.between(0.05, 0.4));
     }
     parts
 }

@@ -35,7 +35,7 @@ fn dining_chair(dice: &mut Dice) -> Vec<Frustum> {
     let taper = dice.between(0.5, 1.0);
     let leg = dice.between(0.022, 0.05);
     let (x, y) = ((-seat.l, seat.l), (-seat.w, seat.w));
-    let mut parts = if dice.chance(0.08) {
+    let mut parts = if dice.chance(0.15) {
         cantilever(&seat, leg, wood)
     } else {
         legs(x, y, seat.height - thick, (leg * taper, leg), splay, wood)
@@ -64,7 +64,7 @@ fn cantilever(seat: &Seat, thick: f64, finish: Finish) -> Vec<Frustum> {
 
 /// A full panel, a frame with slats, or rails.
 fn back(dice: &mut Dice, seat: &Seat, wood: Finish, cloth: Finish) -> Vec<Frustum> {
-    let thick = dice.between(0.02, 0.06);
+    let thick = dice.between(0.015, 0.06);
     let z = (seat.height, seat.top);
     let at = |share: f64, y: Span, finish: Finish| {
         let (low, high) = (z.0 + share * (z.1 - z.0), z.1);
@@ -72,7 +72,7 @@ fn back(dice: &mut Dice, seat: &Seat, wood: Finish, cloth: Finish) -> Vec<Frustu
         leaning((below, below + thick), (-seat.l - seat.lean, -seat.l - seat.lean + thick), y, (low, high), finish)
     };
     if dice.chance(0.5) {
-        let free = if dice.chance(0.5) { 0.0 } else { dice.between(0.1, 0.5) };
+        let free = if dice.chance(0.4) { 0.0 } else { dice.between(0.1, 0.6) };
         let mut parts = vec![at(free, (-seat.w, seat.w), cloth)];
         if free > 0.0 {
             parts.extend(posts(seat, thick, wood));
@@ -157,8 +157,11 @@ fn office_chair(dice: &mut Dice) -> Vec<Frustum> {
     parts
 }
 
-/// A stool, low or at a bar.
+/// A stool, low or at a bar, or a bench without a back.
 pub fn stool(dice: &mut Dice) -> Vec<Frustum> {
+    if dice.chance(0.12) {
+        return bench(dice);
+    }
     let height = if dice.chance(0.3) { dice.between(0.6, 0.8) } else { dice.between(0.38, 0.52) };
     let side = dice.between(0.28, 0.46);
     let finish = if dice.chance(0.4) { upholstered(dice) } else { wooden(dice) };
@@ -187,5 +190,16 @@ pub fn stool(dice: &mut Dice) -> Vec<Frustum> {
             frame,
         ));
     }
+    parts
+}
+
+fn bench(dice: &mut Dice) -> Vec<Frustum> {
+    let (l, w) = (dice.between(0.28, 0.5) / 2.0, dice.between(0.85, 1.4) / 2.0);
+    let height = dice.between(0.4, 0.5);
+    let finish = if dice.chance(0.4) { upholstered(dice) } else { wooden(dice) };
+    let frame = if dice.chance(0.3) { metal(dice) } else { wooden(dice) };
+    let under = height - dice.between(0.03, 0.12);
+    let mut parts = cushion((-l, l), (-w, w), (under, height), 0.01, finish);
+    parts.extend(legs((-l, l), (-w, w), under, (0.03, 0.05), 0.0, frame));
     parts
 }

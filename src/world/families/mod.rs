@@ -25,6 +25,7 @@ mod parts;
 mod sofas;
 mod storage;
 mod tables;
+mod vanity;
 
 use rand_chacha::ChaCha8Rng;
 
@@ -32,7 +33,7 @@ pub use dice::Dice;
 
 use super::Size;
 use super::camera::Frustum;
-use crate::geometry::{Vec2, vec2};
+use crate::geometry::{Polygon, Vec2, vec2};
 
 /// The categories there are families of.
 pub const FAMILIES: [&str; 16] = [
@@ -92,6 +93,12 @@ impl Piece {
         }
         let span = high - low;
         Self { category, orientation, size: Size { length: span.x, width: span.y, height }, parts }
+    }
+
+    /// How high it reaches at a place of its own frame, metres: what is put there lies on that.
+    pub fn surface_at(&self, place: Vec2) -> f64 {
+        let there = |part: &&Frustum| Polygon::new(part.top.clone()).contains(place);
+        self.parts.iter().filter(there).map(|part| part.high).fold(0.0, f64::max)
     }
 
     /// Half its length and half its width.

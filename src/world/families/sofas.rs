@@ -18,13 +18,27 @@ struct Sofa {
     lean: f64,
     foot: f64,
     seats: usize,
+    /// How far the arms roll out over their sides.
+    roll: f64,
+}
+
+impl Sofa {
+    /// One shell around the seat.
+    fn with_arms_as_high_as_the_back(self) -> Self {
+        let back = self.back.min(0.84);
+        Self { arm: back - 0.005, arm_width: self.arm_width.max(0.1), back, lean: 0.0, ..self }
+    }
+}
+
+fn rolled(dice: &mut Dice) -> f64 {
+    if dice.chance(0.2) { dice.between(0.03, 0.1) } else { 0.0 }
 }
 
 /// An armchair.
 pub fn armchair(dice: &mut Dice) -> Vec<Frustum> {
     let sofa = Sofa {
         depth: dice.between(0.58, 0.98),
-        seat_width: dice.between(0.45, 0.66),
+        seat_width: dice.between(0.45, 0.7),
         seat: dice.between(0.37, 0.48),
         arm: dice.between(0.52, 0.68),
         arm_width: dice.between(0.04, 0.22),
@@ -33,13 +47,15 @@ pub fn armchair(dice: &mut Dice) -> Vec<Frustum> {
         lean: dice.between(0.0, 0.16),
         foot: if dice.chance(0.5) { dice.between(0.05, 0.2) } else { 0.0 },
         seats: 1,
+        roll: rolled(dice),
     };
+    let sofa = if dice.chance(0.15) { sofa.with_arms_as_high_as_the_back() } else { sofa };
     if sofa.arm_width < 0.08 { framed(dice, &sofa) } else { upholstered_sofa(dice, &sofa) }
 }
 
 /// A couch with one to four seats, sometimes with a long seat at one end.
 pub fn couch(dice: &mut Dice) -> Vec<Frustum> {
-    let seats = dice.pick(&[1, 2, 2, 2, 3, 3, 3, 3, 4]);
+    let seats = dice.pick(&[1, 2, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 4, 4]);
     let each = if seats == 1 { dice.between(0.8, 1.05) } else { dice.between(0.52, 0.78) };
     let armless = dice.chance(0.08);
     let sofa = Sofa {
@@ -53,7 +69,9 @@ pub fn couch(dice: &mut Dice) -> Vec<Frustum> {
         lean: dice.between(0.0, 0.14),
         foot: if dice.chance(0.5) { dice.between(0.04, 0.16) } else { 0.0 },
         seats,
+        roll: rolled(dice),
     };
+    let sofa = if !armless && dice.chance(0.12) { sofa.with_arms_as_high_as_the_back() } else { sofa };
     let mut parts = upholstered_sofa(dice, &sofa);
     if seats >= 3 && dice.chance(0.3) {
         parts.extend(long_seat(dice, &sofa, parts[0].finish));
@@ -84,6 +102,10 @@ fn upholstered_sofa(dice: &mut Dice, sofa: &Sofa) -> Vec<Frustum> {
         let front = if dice.chance(0.3) { l - 0.08 } else { l };
         for y in [(-full, -w), (w, full)] {
             parts.extend(cushion((-l, front), y, (sofa.foot, sofa.arm), 0.015, finish));
+            if sofa.roll > 0.0 {
+                let out = if y.0 < 0.0 { (y.0 - sofa.roll, y.1) } else { (y.0, y.1 + sofa.roll) };
+                parts.extend(cushion((-l, front + 0.02), out, (sofa.arm - 0.16, sofa.arm), 0.03, finish));
+            }
         }
     }
     if sofa.foot > 0.0 {

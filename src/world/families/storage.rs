@@ -3,6 +3,7 @@
 use super::dice::Dice;
 use super::finishes::{gaudy, metal, shade, wooden};
 use super::parts::{Span, block, legs};
+use super::vanity;
 use crate::world::camera::{Finish, Frustum};
 
 /// Half a length, half a width, and the height of a body.
@@ -35,15 +36,23 @@ pub fn wardrobe(dice: &mut Dice) -> Vec<Frustum> {
     parts
 }
 
-/// A chest of drawers.
+/// A chest of drawers, with or without a mirror, or a dressing table.
 pub fn dresser(dice: &mut Dice) -> Vec<Frustum> {
+    if dice.chance(0.25) {
+        return vanity::dressing_table(dice);
+    }
     let size = body(dice, (0.38, 0.56), (0.6, 1.65), (0.68, 1.22));
-    drawered(dice, &size)
+    let mut parts = drawered(dice, &size);
+    if dice.chance(0.15) {
+        parts.extend(vanity::mirror(dice, size.l, size.w, size.top));
+    }
+    parts
 }
 
 /// A small chest or table beside a bed.
 pub fn nightstand(dice: &mut Dice) -> Vec<Frustum> {
-    let size = body(dice, (0.28, 0.5), (0.34, 0.62), (0.4, 0.72));
+    let wide = if dice.chance(0.15) { (0.6, 0.9) } else { (0.34, 0.62) };
+    let size = body(dice, (0.28, 0.5), wide, (0.4, 0.76));
     if dice.chance(0.7) {
         return drawered(dice, &size);
     }

@@ -2,6 +2,7 @@
 
 use rand_chacha::ChaCha8Rng;
 
+use super::clutter;
 use super::room::FurnishedRoom;
 use crate::geometry::Pose;
 use crate::world::OBJECTS;
@@ -35,7 +36,9 @@ pub(super) fn furnished_room(rng: &mut ChaCha8Rng) -> FurnishedRoom {
         let category = furnisher.dice().pick(&families::FAMILIES);
         furnisher.in_the_open(category);
     }
+    furnisher.set_clutter_on_floor();
     furnisher.set_things_on_tops();
+    furnisher.set_clutter_on_furniture();
     furnisher.room
 }
 
@@ -114,6 +117,38 @@ impl<'r> Furnisher<'r> {
         }
     }
 
+    fn set_clutter_on_floor(&mut self) {
+        if self.dice().chance(0.4) {
+            for _ in 0..self.dice().whole(1, 2) {
+                let thing = clutter::on_floor(&mut self.dice());
+                let at_wall = self.dice().chance(0.6);
+                let dice = &mut Dice::new(self.rng);
+                if at_wall {
+                    self.room.at_wall(thing, dice)
+                } else {
+                    self.room.in_the_open(thing, dice)
+                };
+            }
+        }
+    }
+
+    fn set_clutter_on_furniture(&mut self) {
+        for holder in 0..self.room.placed.len() {
+            let category = self.room.placed[holder].piece.category;
+            let chance = match category {
+                "table" | "coffee_table" | "desk" | "dresser" | "cabinet" | "bed" | "couch" => 0.35,
+                "nightstand" | "tv_stand" | "armchair" | "chair" | "shelf" => 0.12,
+                _ => 0.0,
+            };
+            if self.room.placed[holder].on.is_none() && self.dice().chance(chance) {
+                for _ in 0..self.dice().whole(1, 3) {
+                    let thing = clutter::on_furniture(&mut self.dice());
+                    self.room.on_top(holder, thing, false, &mut Dice::new(self.rng));
+                }
+            }
+        }
+    }
+
     /// Televisions on their stands, lamps and small things on tables.
     fn set_things_on_tops(&mut self) {
         for holder in 0..self.room.placed.len() {
@@ -126,7 +161,7 @@ impl<'r> Furnisher<'r> {
             if !matches!(category, "table" | "coffee_table" | "desk" | "nightstand" | "dresser") {
                 continue;
             }
-            let lamps = if category == "nightstand" { 0.5 } else { 0.12 };
+            let lamps = if category == "nightstand" { 0.5 } else { 0.15 };
             if self.dice().chance(lamps)
                 && let Some(lamp) = families::sample("table_lamp", self.rng)
             {

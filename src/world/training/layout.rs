@@ -81,9 +81,10 @@ impl FurnishedRoom {
         if free.x <= 0.0 || free.y <= 0.0 {
             return;
         }
-        let spot = holder.pose.to_world(vec2(dice.between(-free.x, free.x), dice.between(-free.y, free.y)));
+        let local = vec2(dice.between(-free.x, free.x), dice.between(-free.y, free.y));
+        let spot = holder.pose.to_world(local);
         let pose = Pose::new(spot.x, spot.y, holder.pose.heading + dice.normal(0.0, 0.4));
-        let lift = holder.piece.size.height;
+        let lift = holder.lift + holder.piece.surface_at(local);
         self.placed.push(Placed { piece, pose, lift, on: Some(other), target });
     }
 

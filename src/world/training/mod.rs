@@ -14,6 +14,7 @@
 //! assert!(frame.items.iter().any(|item| item.visible_px > 500));
 //! ```
 
+mod clutter;
 mod furnish;
 mod layout;
 mod room;
