@@ -27,8 +27,10 @@ pub struct Furniture {
     pub detection: Detection,
     /// Its outline on the floor.
     pub footprint: Polygon,
-    /// Whether the object was looked for on it, in vain.
+    /// Whether the object was looked for on it, in vain, in this round of the search.
     pub searched: bool,
+    /// From where it was looked at for the object.
+    pub looked_from: Vec<Vec2>,
     /// What all looks together say of its category: probabilities added up.
     votes: BTreeMap<String, f64>,
     looks: f64,
@@ -43,6 +45,7 @@ impl Furniture {
             detection: detection.clone(),
             footprint,
             searched: false,
+            looked_from: Vec::new(),
             votes: BTreeMap::new(),
             looks: 0.0,
             overlooked: 0.0,
@@ -132,17 +135,22 @@ pub struct Beliefs {
 }
 
 impl Beliefs {
-    /// Takes in what the eyes report; true when the furniture has changed.
-    pub fn take_in(&mut self, view: &View) -> bool {
+    /// Takes in what the eyes of a robot that stands at `here` report; true when the furniture has changed.
+    pub fn take_in(&mut self, view: &View, here: Vec2) -> bool {
         for sighting in view.objects.iter().filter(|sighting| sighting.recognisable) {
             self.objects.retain(|known| known.name != sighting.name || far_apart(known, sighting));
             self.objects.push(sighting.clone());
         }
         let mut changed = false;
         for detection in &view.furniture {
-            changed |= self.place(detection);
+            changed |= self.place(detection, here);
         }
         changed
+    }
+
+    /// Forgets that anything was looked at in vain: a look may have missed what was there.
+    pub fn search_anew(&mut self) {
+        self.furniture.iter_mut().for_each(|furniture| furniture.searched = false);
     }
 
     /// Doubts what stands in plain view and is not in `view`; true when a piece is now taken to be not there.
@@ -162,11 +170,15 @@ impl Beliefs {
         refuted
     }
 
-    fn place(&mut self, detection: &Detection) -> bool {
+    fn place(&mut self, detection: &Detection, here: Vec2) -> bool {
         if detection.footprint.len() < 3 {
             return false;
         }
         let footprint = Polygon::new(detection.footprint.iter().map(|&[x, y]| vec2(x, y)).collect());
+        // Where the robot stands, nothing else does.
+        if footprint.contains(here) {
+            return false;
+        }
         let centre = vec2(detection.x, detection.y);
         // Associated by place, never by category: a label that flickers must not make a second item.
         let distance = |known: &Furniture| (known.centre() - centre).norm();
@@ -201,6 +213,9 @@ fn far_apart(a: &ObjectSighting, b: &ObjectSighting) -> bool {
 mod tests {
     use super::*;
 
+    /// The robot, where nothing else is.
+    const FAR_OFF: Vec2 = Vec2::new(-9.0, -9.0);
+
     fn detection(category: &str, x: f64, confidence: f64) -> Detection {
         let square = [[-0.3, -0.3], [0.3, -0.3], [0.3, 0.3], [-0.3, 0.3]];
         Detection {
@@ -223,7 +238,7 @@ mod tests {
     fn a_label_that_flickers_makes_no_second_item_and_the_surer_look_stays() {
         let mut beliefs = Beliefs::default();
         for (category, confidence) in [("table", 0.9), ("bed", 0.4)] {
-            beliefs.take_in(&View { furniture: vec![detection(category, 1.0, confidence)], objects: Vec::new() });
+            beliefs.take_in(&View { furniture: vec![detection(category, 1.0, confidence)], objects: Vec::new() }, FAR_OFF);
         }
         assert_eq!(beliefs.furniture.len(), 1);
         assert_eq!(beliefs.furniture[0].detection.category, "table");
@@ -233,7 +248,7 @@ mod tests {
     fn the_category_is_what_most_looks_say_and_the_others_are_not_forgotten() {
         let mut beliefs = Beliefs::default();
         for (category, confidence) in [("chair", 0.8), ("table", 0.7), ("table", 0.7)] {
-            beliefs.take_in(&View { furniture: vec![detection(category, 1.0, confidence)], objects: Vec::new() });
+            beliefs.take_in(&View { furniture: vec![detection(category, 1.0, confidence)], objects: Vec::new() }, FAR_OFF);
         }
         let piece = &beliefs.furniture[0];
         assert_eq!(piece.detection.category, "table");
@@ -245,7 +260,7 @@ mod tests {
     fn a_piece_seen_a_little_elsewhere_moves_and_stays_one() {
         let mut beliefs = Beliefs::default();
         for x in [1.0, 1.1] {
-            beliefs.take_in(&View { furniture: vec![detection("table", x, 1.0)], objects: Vec::new() });
+            beliefs.take_in(&View { furniture: vec![detection("table", x, 1.0)], objects: Vec::new() }, FAR_OFF);
         }
         assert_eq!(beliefs.furniture.len(), 1);
         assert!((beliefs.furniture[0].centre().x - 1.05).abs() < 1e-9);
@@ -256,7 +271,7 @@ mod tests {
     fn a_point_on_the_top_belongs_to_that_table() {
         let mut beliefs = Beliefs::default();
         let furniture = vec![detection("table", 0.0, 1.0), detection("table", 3.0, 1.0)];
-        beliefs.take_in(&View { furniture, objects: Vec::new() });
+        beliefs.take_in(&View { furniture, objects: Vec::new() }, FAR_OFF);
         assert_eq!(beliefs.under(vec2(3.1, 0.1)), Some(1));
         assert_eq!(beliefs.under(vec2(1.5, 2.0)), None);
     }
@@ -264,19 +279,27 @@ mod tests {
     #[test]
     fn what_was_seen_once_and_then_never_where_it_should_show_is_taken_to_be_not_there() {
         let mut beliefs = Beliefs::default();
-        beliefs.take_in(&View { furniture: vec![detection("table", 2.0, 0.5)], objects: Vec::new() });
+        beliefs.take_in(&View { furniture: vec![detection("table", 2.0, 0.5)], objects: Vec::new() }, FAR_OFF);
         assert!(beliefs.furniture[0].is_unsure());
         let refuted: Vec<bool> = (0..4).map(|_| beliefs.doubt(&View::default(), |_| true)).collect();
         assert_eq!(refuted, [false, false, true, false]);
         assert!(beliefs.furniture[0].is_refuted());
-        beliefs.take_in(&View { furniture: vec![detection("table", 2.0, 0.5)], objects: Vec::new() });
+        beliefs.take_in(&View { furniture: vec![detection("table", 2.0, 0.5)], objects: Vec::new() }, FAR_OFF);
         assert!(!beliefs.furniture[0].is_refuted());
+    }
+
+    #[test]
+    fn where_the_robot_stands_nothing_else_is_believed_to_stand() {
+        let mut beliefs = Beliefs::default();
+        let view = View { furniture: vec![detection("table", 2.0, 0.9)], objects: Vec::new() };
+        assert!(!beliefs.take_in(&view, vec2(2.2, 0.1)) && beliefs.furniture.is_empty());
+        assert!(beliefs.take_in(&view, vec2(1.2, 0.1)));
     }
 
     #[test]
     fn what_is_hidden_is_not_doubted() {
         let mut beliefs = Beliefs::default();
-        beliefs.take_in(&View { furniture: vec![detection("table", 2.0, 0.5)], objects: Vec::new() });
+        beliefs.take_in(&View { furniture: vec![detection("table", 2.0, 0.5)], objects: Vec::new() }, FAR_OFF);
         (0..9).for_each(|_| assert!(!beliefs.doubt(&View::default(), |_| false)));
     }
 }

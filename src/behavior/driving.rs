@@ -154,11 +154,13 @@ impl Pilot<'_> {
         Ok(true)
     }
 
+    /// Where the robot stands too near to something already, the way must only lead no nearer to it.
     fn still_clear(&self, rest: &[Vec2]) -> bool {
         let mut at = self.pose().position();
+        let mut least = LEAST_M.min(self.grid.clearance(self.grid.cell(at)));
         rest.iter().all(|&point| {
-            let clear = self.grid.clearance_along(at, point) >= LEAST_M;
-            at = point;
+            let clear = self.grid.clearance_along(at, point) >= least;
+            (at, least) = (point, LEAST_M);
             clear
         })
     }

@@ -320,7 +320,7 @@ mod tests {
                 attributes: Vec::new(),
                 why: String::new(),
             };
-            beliefs.take_in(&View { furniture: vec![detection], objects: Vec::new() });
+            beliefs.take_in(&View { furniture: vec![detection], objects: Vec::new() }, vec2(-9.0, -9.0));
         }
         beliefs
     }

@@ -28,20 +28,21 @@ impl Executive<'_> {
         let arrived = self.pilot.pose();
         self.pilot.sweep(SWEEP_RAD)?;
         self.look_further(task, room, arrived)?;
-        if let Some(found) = self.try_candidates(task, room, arrived, &task.wanted)? {
+        if let Some(found) = self.try_all(task, room, arrived)? {
             return Ok(Ok(found));
         }
         if !self.options.no_fallback {
-            self.pilot.because("nothing the words fit holds it; trying all other table-like furniture, nearest first");
-            if let Some(found) = self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())? {
-                return Ok(Ok(found));
-            }
             for lookout in lookouts(self.pilot.grid(), room, self.pilot.pose().position()) {
                 self.look_round_at(lookout)?;
                 if let Some(found) = self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())? {
                     return Ok(Ok(found));
                 }
             }
+        }
+        self.pilot.because("a look may have missed it; looking at everything once more, from other sides");
+        self.pilot.beliefs.search_anew();
+        if let Some(found) = self.try_all(task, room, arrived)? {
+            return Ok(Ok(found));
         }
         let object = task.object.unwrap_or("any portable object").replace('_', " ");
         let place = Place { room, arrived };
@@ -51,6 +52,16 @@ impl Executive<'_> {
         let why = format!("no {object} on any of {count} pieces of furniture looked at; {blame}");
         self.pilot.end(&why);
         Ok(Err(why))
+    }
+
+    /// What the words fit, best first, then all other table-like furniture.
+    fn try_all(&mut self, task: &Task, room: &RoomFrame, arrived: Pose) -> Result<Option<String>, Halt> {
+        let found = self.try_candidates(task, room, arrived, &task.wanted)?;
+        if found.is_some() || self.options.no_fallback {
+            return Ok(found);
+        }
+        self.pilot.because("nothing the words fit holds it; trying all other table-like furniture, nearest first");
+        self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())
     }
 
     /// While the best candidate is a guess, or a landmark that was named has not been seen, looks from elsewhere.
@@ -147,6 +158,8 @@ impl Executive<'_> {
                 self.approached.push(furniture.centre());
                 reached = true;
             }
+            let here = self.pilot.pose().position();
+            self.pilot.beliefs.furniture[index].looked_from.push(here);
             if let Some(sighting) = self.settle_on(&furniture.footprint, object)? {
                 self.found_at = Some(vec2(sighting.x, sighting.y));
                 return Ok(Some(format!("the {} is on {}", sighting.name.replace('_', " "), furniture.label())));
@@ -163,6 +176,10 @@ impl Executive<'_> {
 
     /// Faces the object; when it is in the picture but cannot be told for sure, looks from a better place.
     fn settle_on(&mut self, footprint: &Polygon, object: Option<&str>) -> Result<Option<ObjectSighting>, Halt> {
+        if self.sighted(footprint, object).is_none() {
+            // Noise hides a small thing in one picture and not in the next.
+            self.pilot.look();
+        }
         for _ in 0..MOST_SETTLING {
             let Some(sighting) = self.sighted(footprint, object) else { return Ok(None) };
             self.pilot.turn_to(bearing(self.pilot.pose(), &sighting))?;

@@ -23,7 +23,7 @@ pub(super) fn eyes(home: &Home, settings: &Settings, stream: u64, truth: Rc<RefC
     match settings.perception {
         Perception::Truth => Box::new(ideal(truth)),
         Perception::Boxes => Box::new(BoxEyes::new(ideal(truth), rng)),
-        Perception::Masks => Box::new(MaskEyes::new(kinect(truth, rng), home.map.clone())),
+        Perception::Masks => Box::new(MaskEyes::new(kinect(truth, rng), home.map.clone(), &home.scene)),
         Perception::Camera => Box::new(CameraEyes::new(kinect(truth, rng), home.map.clone())),
     }
 }
