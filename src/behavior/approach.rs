@@ -20,6 +20,8 @@ const BEST_VIEW_M: f64 = 1.25;
 /// Furniture longer than this may hide an object at its far end, so it is looked at from both sides.
 const LONG_M: f64 = 1.2;
 
+/// From here a piece of furniture is seen whole and large, metres.
+const STUDY_M: f64 = 2.2;
 /// So far round a piece from where it was looked at before, it is another look, radians.
 const OTHER_SIDE_RAD: f64 = PI / 3.0;
 
@@ -49,6 +51,20 @@ pub fn viewpoints(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, furni
         poses.extend(cheapest(grid, first, &others).map(|point| facing(point, centre)));
     }
     poses
+}
+
+/// A pose from which it is best told what `furniture` is: the whole of it in the picture, large. The cheapest to reach.
+pub fn vantage(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, furniture: &Furniture) -> Option<Pose> {
+    let centre = furniture.centre();
+    let around = (0..DIRECTIONS).map(|i| TAU * i as f64 / DIRECTIONS as f64);
+    let mut places: Vec<(f64, Vec2)> = around
+        .map(|angle| centre + vec2(angle.cos(), angle.sin()) * STUDY_M)
+        .filter(|&point| grid.clearance(grid.cell(point)) >= SWING_M + 0.05)
+        .filter(|&point| rooms.clearance_along(point, centre) >= SIGHT_M)
+        .map(|point| ((point - from).norm(), point))
+        .collect();
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    cheapest(grid, from, &places).map(|point| facing(point, centre))
 }
 
 /// Whether `furniture` was never looked at from the side of `point`.

@@ -10,11 +10,14 @@ use crate::record::Detection;
 const SAME_PLACE_M: f64 = 0.35;
 /// A look at least this sure, against the surest so far, moves what is believed of place and outline.
 const AS_GOOD: f64 = 0.9;
-/// How far one such look moves it, a share of the difference.
-const BLEND: f64 = 0.5;
+/// How far such a look moves it at least, a share of the difference: the first looks are averaged, and what the robot
+/// believes of its own place shifts slowly.
+const LEAST_BLEND: f64 = 0.3;
 /// What moved by less has not moved, metres.
 const MOVED_M: f64 = 0.02;
 
+/// Small things recognised nearer to each other than this are one, metres.
+pub(super) const SAME_THING_M: f64 = 0.15;
 /// So many looks in plain view without a piece are needed to take it to be not there.
 const LOOKS_TO_REFUTE: f64 = 3.0;
 
@@ -31,8 +34,12 @@ pub struct Furniture {
     pub searched: bool,
     /// From where it was looked at for the object.
     pub looked_from: Vec<Vec2>,
-    /// What all looks together say of its category: probabilities added up.
+    /// Whether it was gone to for no more than to see better what it is.
+    pub studied: bool,
+    /// What all looks together say of its category: probabilities added up, the surer looks' counting more.
     votes: BTreeMap<String, f64>,
+    /// What the looks count together.
+    weight: f64,
     looks: f64,
     /// Looks since the last one that showed it, in which it stood in plain view and was not seen.
     overlooked: f64,
@@ -46,7 +53,9 @@ impl Furniture {
             footprint,
             searched: false,
             looked_from: Vec::new(),
+            studied: false,
             votes: BTreeMap::new(),
+            weight: 0.0,
             looks: 0.0,
             overlooked: 0.0,
         };
@@ -67,7 +76,8 @@ impl Furniture {
     /// How sure the robot is that this is there and of a category for which `is` holds, 0 to 1, over all looks.
     pub fn belief(&self, is: impl Fn(&str) -> bool) -> f64 {
         let votes: f64 = self.votes.iter().filter(|(category, _)| is(category)).map(|(_, votes)| votes).sum();
-        (votes / (self.looks + self.overlooked).max(1e-9)).min(1.0)
+        let shown = self.looks / (self.looks + self.overlooked);
+        (shown * votes / self.weight.max(1e-9)).min(1.0)
     }
 
     /// Whether more looks that should have shown it did not than did: most likely it is not there.
@@ -84,11 +94,13 @@ impl Furniture {
     fn count(&mut self, detection: &Detection) {
         self.looks += 1.0;
         self.overlooked = 0.0;
+        let weight = detection.confidence.powi(2).max(1e-6);
+        self.weight += weight;
         if detection.scores.is_empty() {
-            *self.votes.entry(detection.category.clone()).or_default() += detection.confidence;
+            *self.votes.entry(detection.category.clone()).or_default() += weight * detection.confidence;
         }
         for (category, score) in &detection.scores {
-            *self.votes.entry(category.clone()).or_default() += score;
+            *self.votes.entry(category.clone()).or_default() += weight * score;
         }
         // The first of equals in the alphabet, so that the same looks give the same name.
         let best = self.votes.iter().fold(None, |best: Option<(&String, f64)>, (category, &votes)| match best {
@@ -104,7 +116,8 @@ impl Furniture {
     fn look_again(&mut self, detection: &Detection, footprint: Polygon) -> bool {
         let from = self.centre();
         if detection.confidence >= AS_GOOD * self.detection.confidence {
-            let shift = (from - vec2(detection.x, detection.y)) * (1.0 - BLEND);
+            let blend = (1.0 / (self.looks + 1.0)).max(LEAST_BLEND);
+            let shift = (from - vec2(detection.x, detection.y)) * (1.0 - blend);
             self.footprint = Polygon::new(footprint.corners().iter().map(|corner| corner + shift).collect());
             let yaw = detection.yaw.or(self.detection.yaw);
             let confidence = detection.confidence.max(self.detection.confidence);
@@ -130,6 +143,8 @@ pub struct Beliefs {
     pub furniture: Vec<Furniture>,
     /// The latest sighting of each object, recognisable ones only.
     pub objects: Vec<ObjectSighting>,
+    /// How often each name was recognised at each place.
+    told: Vec<(Vec2, BTreeMap<String, u32>)>,
     /// Points at which the sonar met something the eyes had not reported.
     pub bumps: Vec<Vec2>,
 }
@@ -140,6 +155,7 @@ impl Beliefs {
         for sighting in view.objects.iter().filter(|sighting| sighting.recognisable) {
             self.objects.retain(|known| known.name != sighting.name || far_apart(known, sighting));
             self.objects.push(sighting.clone());
+            self.tell(sighting);
         }
         let mut changed = false;
         for detection in &view.furniture {
@@ -191,9 +207,28 @@ impl Beliefs {
         true
     }
 
-    /// Where an object of that name was last recognised; any object when none is named.
+    /// Where an object of that name was last recognised; any object when none is named. What was more often taken for
+    /// something else does not count.
     pub fn sighting(&self, name: Option<&str>) -> Option<&ObjectSighting> {
-        self.objects.iter().rev().find(|sighting| name.is_none_or(|name| sighting.name == name))
+        let named = |sighting: &&ObjectSighting| name.is_none_or(|name| sighting.name == name);
+        self.objects.iter().rev().filter(named).find(|sighting| !self.is_outvoted(sighting))
+    }
+
+    fn tell(&mut self, sighting: &ObjectSighting) {
+        let place = vec2(sighting.x, sighting.y);
+        let index = self.told.iter().position(|(at, _)| (at - place).norm() < SAME_THING_M).unwrap_or_else(|| {
+            self.told.push((place, BTreeMap::new()));
+            self.told.len() - 1
+        });
+        *self.told[index].1.entry(sighting.name.clone()).or_default() += 1;
+    }
+
+    /// Whether what lies at a sighting's place was recognised more often under another name.
+    fn is_outvoted(&self, sighting: &ObjectSighting) -> bool {
+        let place = vec2(sighting.x, sighting.y);
+        let there = self.told.iter().find(|(at, _)| (at - place).norm() < SAME_THING_M);
+        let own = there.and_then(|(_, names)| names.get(&sighting.name)).copied().unwrap_or(0);
+        there.is_some_and(|(_, names)| names.values().any(|&count| count > own))
     }
 
     /// The furniture on which a point lies, or nearest to it within half a metre.
@@ -294,6 +329,18 @@ mod tests {
         let view = View { furniture: vec![detection("table", 2.0, 0.9)], objects: Vec::new() };
         assert!(!beliefs.take_in(&view, vec2(2.2, 0.1)) && beliefs.furniture.is_empty());
         assert!(beliefs.take_in(&view, vec2(1.2, 0.1)));
+    }
+
+    #[test]
+    fn a_thing_is_what_it_was_recognised_as_most_often() {
+        let mut beliefs = Beliefs::default();
+        let seen = |name: &str| ObjectSighting { name: name.to_string(), x: 1.0, y: 1.0, recognisable: true };
+        beliefs.take_in(&View { furniture: Vec::new(), objects: vec![seen("monitor")] }, FAR_OFF);
+        assert!(beliefs.sighting(Some("monitor")).is_some());
+        (0..2).for_each(|_| {
+            beliefs.take_in(&View { furniture: Vec::new(), objects: vec![seen("statue")] }, FAR_OFF);
+        });
+        assert!(beliefs.sighting(Some("monitor")).is_none() && beliefs.sighting(Some("statue")).is_some());
     }
 
     #[test]
