@@ -13,6 +13,9 @@ const AS_GOOD: f64 = 0.9;
 /// How far such a look moves it at least, a share of the difference: the first looks are averaged, and what the robot
 /// believes of its own place shifts slowly.
 const LEAST_BLEND: f64 = 0.3;
+/// Looks that disagree by less agree, and more than the second is never kept away from, metres.
+const SAME_M: f64 = 0.03;
+const MOST_MARGIN_M: f64 = 0.08;
 /// What moved by less has not moved, metres.
 const MOVED_M: f64 = 0.02;
 
@@ -40,6 +43,8 @@ pub struct Furniture {
     votes: BTreeMap<String, f64>,
     /// What the looks count together.
     weight: f64,
+    /// Squares of how far corners of later looks lay outside the outline believed before, added up, square metres.
+    scatter: f64,
     looks: f64,
     /// Looks since the last one that showed it, in which it stood in plain view and was not seen.
     overlooked: f64,
@@ -56,6 +61,7 @@ impl Furniture {
             studied: false,
             votes: BTreeMap::new(),
             weight: 0.0,
+            scatter: 0.0,
             looks: 0.0,
             overlooked: 0.0,
         };
@@ -78,6 +84,12 @@ impl Furniture {
         let votes: f64 = self.votes.iter().filter(|(category, _)| is(category)).map(|(_, votes)| votes).sum();
         let shown = self.looks / (self.looks + self.overlooked);
         (shown * votes / self.weight.max(1e-9)).min(1.0)
+    }
+
+    /// How far it may reach beyond its outline, metres, by how much the looks at it disagree.
+    pub fn margin(&self) -> f64 {
+        let spread = (self.scatter / (self.looks - 1.0).max(1.0)).sqrt();
+        (spread - SAME_M).clamp(0.0, MOST_MARGIN_M)
     }
 
     /// Whether more looks that should have shown it did not than did: most likely it is not there.
@@ -115,6 +127,8 @@ impl Furniture {
     /// Takes in another look; true when the piece is not where it was believed to be.
     fn look_again(&mut self, detection: &Detection, footprint: Polygon) -> bool {
         let from = self.centre();
+        let off = footprint.corners().iter().map(|&corner| self.footprint.distance_to(corner)).fold(0.0, f64::max);
+        self.scatter += off * off;
         if detection.confidence >= AS_GOOD * self.detection.confidence {
             let blend = (1.0 / (self.looks + 1.0)).max(LEAST_BLEND);
             let shift = (from - vec2(detection.x, detection.y)) * (1.0 - blend);
@@ -300,6 +314,19 @@ mod tests {
         assert_eq!(beliefs.furniture.len(), 1);
         assert!((beliefs.furniture[0].centre().x - 1.05).abs() < 1e-9);
         assert!((beliefs.furniture[0].footprint.centroid().x - 1.05).abs() < 1e-9);
+    }
+
+    #[test]
+    fn looks_that_disagree_leave_a_margin_and_looks_that_agree_leave_none() {
+        let margin = |places: [f64; 3]| {
+            let mut beliefs = Beliefs::default();
+            for x in places {
+                beliefs.take_in(&View { furniture: vec![detection("table", x, 1.0)], objects: Vec::new() }, FAR_OFF);
+            }
+            beliefs.furniture[0].margin()
+        };
+        assert_eq!(margin([1.0, 1.01, 1.0]), 0.0);
+        assert!(margin([1.0, 1.2, 0.9]) > 0.05);
     }
 
     #[test]

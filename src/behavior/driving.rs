@@ -1,7 +1,7 @@
 //! How the pilot turns, drives along a way, and gets clear of what it did not expect.
 
 use super::beliefs::Furniture;
-use super::pilot::{Halt, Pilot, SWING_M, TICK_S};
+use super::pilot::{Halt, PLAIN_VIEW_M, Pilot, SWING_M, TICK_S};
 use super::route::{length, route};
 use crate::geometry::{ClearanceGrid, Pose, Vec2, vec2, wrap_angle};
 use crate::robot::{SonarReading, p3dx};
@@ -76,6 +76,7 @@ impl Pilot<'_> {
                 // What was seen once may not be there: wait for another look.
                 if in_vain < MOST_REPLANS && self.beliefs.furniture.iter().any(Furniture::is_unsure) {
                     in_vain += 1;
+                    self.step_back()?;
                     self.look_again()?;
                     continue;
                 }
@@ -102,6 +103,23 @@ impl Pilot<'_> {
         let nearest = there.min_by(|a, b| away(a).total_cmp(&away(b)));
         let what = nearest.map_or(String::new(), |f| format!(", {} stands {:.1} m from here", f.label(), away(&f)));
         format!("no way to ({:.1}, {:.1}){what}", goal.x, goal.y)
+    }
+
+    /// Turns to what was seen once, so near that the camera may look over it, and backs off as far as the sonars allow.
+    fn step_back(&mut self) -> Result<(), Halt> {
+        let here = self.pose();
+        let away = |f: &&Furniture| f.footprint.distance_to(here.position());
+        let unsure = self.beliefs.furniture.iter().filter(|f| f.is_unsure());
+        let Some(centre) = unsure.min_by(|a, b| away(a).total_cmp(&away(b))).map(Furniture::centre) else {
+            return Ok(());
+        };
+        if here.bearing_to(centre).abs() > OFF_LINE_RAD {
+            self.turn_to(wrap_angle(here.heading + here.bearing_to(centre)))?;
+        }
+        if here.distance_to(centre) < PLAIN_VIEW_M.start {
+            self.back_off(false)?;
+        }
+        Ok(())
     }
 
     /// Stands for a moment and looks: several looks tell better what stands where.

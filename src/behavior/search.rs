@@ -72,6 +72,13 @@ pub struct Ranked {
     pub reading: String,
 }
 
+impl Ranked {
+    /// Whether the robot is not sure what the piece is.
+    pub fn is_doubtful(&self) -> bool {
+        self.at_best > self.score
+    }
+}
+
 /// A factor of the score and how it came about.
 struct Factor {
     value: f64,

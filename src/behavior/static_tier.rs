@@ -17,6 +17,8 @@ use crate::perception::ObjectSighting;
 
 /// A best candidate below this is a guess: look further before going there.
 const PLAUSIBLE: f64 = 0.12;
+/// The same for one of which the robot is not sure what it is: it may not have seen what else there is, either.
+const PLAUSIBLE_DOUBTFUL: f64 = 0.22;
 /// How often the robot moves to tell for sure what it sees.
 const MOST_SETTLING: usize = 3;
 /// How many pieces are looked at closely before one is chosen.
@@ -76,9 +78,10 @@ impl Executive<'_> {
     fn look_further(&mut self, task: &Task, room: &RoomFrame, arrived: Pose) -> Result<(), Halt> {
         for lookout in lookouts(self.pilot.grid(), room, arrived.position()) {
             let place = Place { room, arrived };
-            let best = rank(&self.pilot.beliefs, &task.wanted, place, self.lexicon).first().map_or(0.0, |r| r.score);
+            let ranked = rank(&self.pilot.beliefs, &task.wanted, place, self.lexicon);
+            let is_plausible = |best: &Ranked| best.score >= if best.is_doubtful() { PLAUSIBLE_DOUBTFUL } else { PLAUSIBLE };
             let missing = self.missing_reference(&task.wanted);
-            if best >= PLAUSIBLE && missing.is_none() {
+            if ranked.first().is_some_and(is_plausible) && missing.is_none() {
                 return Ok(());
             }
             let reason =
