@@ -20,10 +20,16 @@ const BEST_VIEW_M: f64 = 1.25;
 /// Furniture longer than this may hide an object at its far end, so it is looked at from both sides.
 const LONG_M: f64 = 1.2;
 
+/// From here a piece of furniture is seen whole and large, metres.
+const STUDY_M: f64 = 2.2;
+/// So far round a piece from where it was looked at before, it is another look, radians.
+const OTHER_SIDE_RAD: f64 = PI / 3.0;
+
 /// Nothing is seen through a wall: a line of sight keeps this clear of them, metres.
 const SIGHT_M: f64 = 0.06;
 
 /// Poses from which to look at `furniture`, the cheapest to reach first; for long furniture also one from across.
+/// What was looked at before is looked at from other sides, where that can be done.
 ///
 /// `rooms` is the grid of the rooms alone, `grid` has all known furniture as well.
 pub fn viewpoints(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, furniture: &Furniture) -> Vec<Pose> {
@@ -34,7 +40,10 @@ pub fn viewpoints(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, furni
         .map(|point| ((point - from).norm() + 0.5 * (point - centre).norm(), point))
         .collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let Some(first) = cheapest(grid, from, &places) else { return Vec::new() };
+    let fresh: Vec<(f64, Vec2)> =
+        places.iter().copied().filter(|(_, point)| is_other_side(furniture, *point)).collect();
+    let first = cheapest(grid, from, &fresh).or_else(|| cheapest(grid, from, &places));
+    let Some(first) = first else { return Vec::new() };
     let mut poses = vec![facing(first, centre)];
     if furniture.detection.length.max(furniture.detection.width) > LONG_M {
         let across =
@@ -43,6 +52,27 @@ pub fn viewpoints(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, furni
         poses.extend(cheapest(grid, first, &others).map(|point| facing(point, centre)));
     }
     poses
+}
+
+/// A pose from which it is best told what `furniture` is: the whole of it in the picture, large. The cheapest to reach.
+pub fn vantage(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, furniture: &Furniture) -> Option<Pose> {
+    let centre = furniture.centre();
+    let around = (0..DIRECTIONS).map(|i| TAU * i as f64 / DIRECTIONS as f64);
+    let mut places: Vec<(f64, Vec2)> = around
+        .map(|angle| centre + vec2(angle.cos(), angle.sin()) * STUDY_M)
+        .filter(|&point| grid.clearance(grid.cell(point)) >= SWING_M + 0.05)
+        .filter(|&point| rooms.clearance_along(point, centre) >= SIGHT_M)
+        .map(|point| ((point - from).norm(), point))
+        .collect();
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    cheapest(grid, from, &places).map(|point| facing(point, centre))
+}
+
+/// Whether `furniture` was never looked at from the side of `point`.
+fn is_other_side(furniture: &Furniture, point: Vec2) -> bool {
+    let centre = furniture.centre();
+    let turn = |from: &Vec2| crate::geometry::angle_between(bearing(centre, point), bearing(centre, *from));
+    furniture.looked_from.iter().all(|from| turn(from) > OTHER_SIDE_RAD)
 }
 
 /// A pose from which an object at `point` is well seen: at the best distance, on the side where the robot is.

@@ -1,7 +1,7 @@
 //! How the pilot turns, drives along a way, and gets clear of what it did not expect.
 
 use super::beliefs::Furniture;
-use super::pilot::{Halt, Pilot, SWING_M, TICK_S};
+use super::pilot::{Halt, PLAIN_VIEW_M, Pilot, SWING_M, TICK_S};
 use super::route::{length, route};
 use crate::geometry::{ClearanceGrid, Pose, Vec2, vec2, wrap_angle};
 use crate::robot::{SonarReading, p3dx};
@@ -37,9 +37,12 @@ const SONAR_AGE_S: f64 = 0.32;
 const TURNING_M: f64 = p3dx::SWING_M + 0.03;
 /// How far the robot backs off from what it touched, metres.
 const BACK_OFF_M: f64 = 0.25;
-/// How often a blocked way is planned anew, and a held robot freed, before it gives up.
+/// How often a blocked way is planned anew without getting on, and in all; and how often a held robot is freed.
 const MOST_REPLANS: usize = 8;
+const MOST_REPLANS_IN_ALL: usize = 40;
 const MOST_RESCUES: usize = 4;
+/// Gone so far, a robot has got on, metres.
+const GOT_ON_M: f64 = 0.3;
 
 impl Pilot<'_> {
     /// Turns in place to a heading, radians.
@@ -67,21 +70,63 @@ impl Pilot<'_> {
 
     /// Drives to a point, metres, round everything known.
     pub fn go_to(&mut self, goal: Vec2) -> Result<(), Halt> {
-        for _ in 0..MOST_REPLANS {
+        let (mut in_vain, mut from) = (0, self.pose().position());
+        for _ in 0..MOST_REPLANS_IN_ALL {
             let Some(points) = self.way_to(goal) else {
                 // What was seen once may not be there: wait for another look.
-                if self.beliefs.furniture.iter().any(Furniture::is_unsure) {
-                    self.tick(0.0, 0.0)?;
-                    self.look();
+                if in_vain < MOST_REPLANS && self.beliefs.furniture.iter().any(Furniture::is_unsure) {
+                    in_vain += 1;
+                    self.step_back()?;
+                    self.look_again()?;
                     continue;
                 }
-                return Err(Halt::Blocked(format!("no way to ({:.1}, {:.1})", goal.x, goal.y)));
+                return Err(Halt::Blocked(self.no_way_to(goal)));
             };
             if self.follow(&points)? {
                 return Ok(());
             }
+            let here = self.pose().position();
+            (in_vain, from) = if (here - from).norm() > GOT_ON_M { (0, here) } else { (in_vain + 1, from) };
+            if in_vain > MOST_REPLANS {
+                break;
+            }
+            self.look_again()?;
         }
         Err(Halt::Blocked(format!("every way to ({:.1}, {:.1}) turned out blocked", goal.x, goal.y)))
+    }
+
+    /// Says what is believed to stand next to the robot, since that is what most often closes a way.
+    fn no_way_to(&self, goal: Vec2) -> String {
+        let here = self.pose().position();
+        let away = |f: &&Furniture| f.footprint.distance_to(here);
+        let there = self.beliefs.furniture.iter().filter(|f| !f.is_refuted());
+        let nearest = there.min_by(|a, b| away(a).total_cmp(&away(b)));
+        let what = nearest.map_or(String::new(), |f| format!(", {} stands {:.1} m from here", f.label(), away(&f)));
+        format!("no way to ({:.1}, {:.1}){what}", goal.x, goal.y)
+    }
+
+    /// Turns to what was seen once, so near that the camera may look over it, and backs off as far as the sonars allow.
+    fn step_back(&mut self) -> Result<(), Halt> {
+        let here = self.pose();
+        let away = |f: &&Furniture| f.footprint.distance_to(here.position());
+        let unsure = self.beliefs.furniture.iter().filter(|f| f.is_unsure());
+        let Some(centre) = unsure.min_by(|a, b| away(a).total_cmp(&away(b))).map(Furniture::centre) else {
+            return Ok(());
+        };
+        if here.bearing_to(centre).abs() > OFF_LINE_RAD {
+            self.turn_to(wrap_angle(here.heading + here.bearing_to(centre)))?;
+        }
+        if here.distance_to(centre) < PLAIN_VIEW_M.start {
+            self.back_off(false)?;
+        }
+        Ok(())
+    }
+
+    /// Stands for a moment and looks: several looks tell better what stands where.
+    fn look_again(&mut self) -> Result<(), Halt> {
+        self.tick(0.0, 0.0)?;
+        self.look();
+        Ok(())
     }
 
     /// Drives to a pose and turns to its heading.
@@ -154,11 +199,13 @@ impl Pilot<'_> {
         Ok(true)
     }
 
+    /// Where the robot stands too near to something already, the way must only lead no nearer to it.
     fn still_clear(&self, rest: &[Vec2]) -> bool {
         let mut at = self.pose().position();
+        let mut least = LEAST_M.min(self.grid.clearance(self.grid.cell(at)));
         rest.iter().all(|&point| {
-            let clear = self.grid.clearance_along(at, point) >= LEAST_M;
-            at = point;
+            let clear = self.grid.clearance_along(at, point) >= least;
+            (at, least) = (point, LEAST_M);
             clear
         })
     }

@@ -17,7 +17,7 @@ const CELL_M: f64 = 0.1;
 /// Beyond this, distances to obstacles are not told apart, metres.
 const REACH_M: f64 = 0.8;
 /// A piece so far away and so near the middle of the picture, with nothing before it, should be seen.
-const PLAIN_VIEW_M: std::ops::Range<f64> = 1.3..4.0;
+pub(super) const PLAIN_VIEW_M: std::ops::Range<f64> = 1.3..4.0;
 const PLAIN_VIEW_RAD: f64 = 0.4;
 /// A line of sight passes walls by this, metres: a cell's middle lies half a cell off them at most.
 const SIGHT_M: f64 = 0.08;
@@ -143,7 +143,7 @@ impl<'a> Pilot<'a> {
         if let Some(frame) = self.eyes.frame() {
             self.watcher.frame(time_s, self.localizer.pose(), frame);
         }
-        let taken_in = self.beliefs.take_in(&view);
+        let taken_in = self.beliefs.take_in(&view, self.localizer.pose().position());
         let changed = self.doubt(&view) || taken_in;
         self.view = view;
         if changed {
@@ -171,10 +171,11 @@ impl<'a> Pilot<'a> {
 
     pub(super) fn rebuild_grid(&mut self) {
         let there = self.beliefs.furniture.iter().filter(|furniture| !furniture.is_refuted());
-        self.outlines = there.map(|furniture| furniture.footprint.clone()).collect();
+        self.outlines.clear();
         self.grid = self.rooms_only.clone();
-        for outline in &self.outlines {
-            self.grid.add_polygon(outline);
+        for furniture in there {
+            self.grid.add_about(&furniture.footprint, furniture.margin());
+            self.outlines.push(furniture.footprint.clone());
         }
         for &bump in &self.beliefs.bumps {
             self.grid.add_polygon(&Polygon::rectangle(Pose::new(bump.x, bump.y, 0.0), 0.1, 0.1));

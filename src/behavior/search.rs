@@ -66,8 +66,17 @@ pub struct Ranked {
     pub index: usize,
     /// 0 to 1; comparable among the candidates of one search only.
     pub score: f64,
+    /// What the score would be if the robot were sure of what the piece is.
+    pub at_best: f64,
     /// The factors in words.
     pub reading: String,
+}
+
+impl Ranked {
+    /// Whether the robot is not sure what the piece is.
+    pub fn is_doubtful(&self) -> bool {
+        self.at_best > self.score
+    }
 }
 
 /// A factor of the score and how it came about.
@@ -84,9 +93,12 @@ pub fn rank(beliefs: &Beliefs, wanted: &Wanted, place: Place, lexicon: &Lexicon)
         .filter(|&&index| !beliefs.furniture[index].searched)
         .map(|&index| {
             let factors = factors(index, beliefs, wanted, place, &candidates, lexicon);
-            let score = factors.iter().map(|factor| FLOOR + (1.0 - FLOOR) * factor.value).product();
+            let counted = |value: f64| FLOOR + (1.0 - FLOOR) * value;
+            let score: f64 = factors.iter().map(|factor| counted(factor.value)).product();
+            let belief = belief_in_target(&beliefs.furniture[index], wanted.target.as_deref(), lexicon);
+            let at_best = if belief < SURE { score / counted(belief) } else { score };
             let readings: Vec<&str> = factors.iter().map(|f| f.reading.as_str()).filter(|r| !r.is_empty()).collect();
-            Ranked { index, score, reading: readings.join(", ") }
+            Ranked { index, score, at_best, reading: readings.join(", ") }
         })
         .collect();
     ranked.sort_by(|a, b| b.score.total_cmp(&a.score).then(a.index.cmp(&b.index)));
@@ -320,7 +332,7 @@ mod tests {
                 attributes: Vec::new(),
                 why: String::new(),
             };
-            beliefs.take_in(&View { furniture: vec![detection], objects: Vec::new() });
+            beliefs.take_in(&View { furniture: vec![detection], objects: Vec::new() }, vec2(-9.0, -9.0));
         }
         beliefs
     }

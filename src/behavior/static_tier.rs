@@ -4,7 +4,8 @@
 use std::f64::consts::PI;
 
 use super::Halt;
-use super::approach::{better_view, viewpoints};
+use super::approach::{better_view, vantage, viewpoints};
+use super::beliefs::SAME_THING_M;
 use super::executive::{Executive, SWEEP_RAD, Task};
 use super::motion::RoomFrame;
 use super::regions::lookouts;
@@ -16,8 +17,16 @@ use crate::perception::ObjectSighting;
 
 /// A best candidate below this is a guess: look further before going there.
 const PLAUSIBLE: f64 = 0.12;
+/// The same for one of which the robot is not sure what it is: it may not have seen what else there is, either.
+const PLAUSIBLE_DOUBTFUL: f64 = 0.22;
 /// How often the robot moves to tell for sure what it sees.
 const MOST_SETTLING: usize = 3;
+/// How many pieces are looked at closely before one is chosen.
+const MOST_STUDIED: usize = 3;
+/// Beyond this no small thing is told for sure, metres.
+const TOLD_M: f64 = 1.9;
+/// So many pictures more are taken of what was recognised, and most must agree.
+const CONFIRMING_LOOKS: usize = 2;
 /// Alternatives named in a reason beside the best two.
 const MOST_TOLD: usize = 3;
 
@@ -28,20 +37,22 @@ impl Executive<'_> {
         let arrived = self.pilot.pose();
         self.pilot.sweep(SWEEP_RAD)?;
         self.look_further(task, room, arrived)?;
-        if let Some(found) = self.try_candidates(task, room, arrived, &task.wanted)? {
+        self.study_rivals(task, room, arrived)?;
+        if let Some(found) = self.try_all(task, room, arrived)? {
             return Ok(Ok(found));
         }
         if !self.options.no_fallback {
-            self.pilot.because("nothing the words fit holds it; trying all other table-like furniture, nearest first");
-            if let Some(found) = self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())? {
-                return Ok(Ok(found));
-            }
             for lookout in lookouts(self.pilot.grid(), room, self.pilot.pose().position()) {
                 self.look_round_at(lookout)?;
                 if let Some(found) = self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())? {
                     return Ok(Ok(found));
                 }
             }
+        }
+        self.pilot.because("a look may have missed it; looking at everything once more, from other sides");
+        self.pilot.beliefs.search_anew();
+        if let Some(found) = self.try_all(task, room, arrived)? {
+            return Ok(Ok(found));
         }
         let object = task.object.unwrap_or("any portable object").replace('_', " ");
         let place = Place { room, arrived };
@@ -53,19 +64,55 @@ impl Executive<'_> {
         Ok(Err(why))
     }
 
+    /// What the words fit, best first, then all other table-like furniture.
+    fn try_all(&mut self, task: &Task, room: &RoomFrame, arrived: Pose) -> Result<Option<String>, Halt> {
+        let found = self.try_candidates(task, room, arrived, &task.wanted)?;
+        if found.is_some() || self.options.no_fallback {
+            return Ok(found);
+        }
+        self.pilot.because("nothing the words fit holds it; trying all other table-like furniture, nearest first");
+        self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())
+    }
+
     /// While the best candidate is a guess, or a landmark that was named has not been seen, looks from elsewhere.
     fn look_further(&mut self, task: &Task, room: &RoomFrame, arrived: Pose) -> Result<(), Halt> {
         for lookout in lookouts(self.pilot.grid(), room, arrived.position()) {
             let place = Place { room, arrived };
-            let best = rank(&self.pilot.beliefs, &task.wanted, place, self.lexicon).first().map_or(0.0, |r| r.score);
+            let ranked = rank(&self.pilot.beliefs, &task.wanted, place, self.lexicon);
+            let is_plausible =
+                |best: &Ranked| best.score >= if best.is_doubtful() { PLAUSIBLE_DOUBTFUL } else { PLAUSIBLE };
             let missing = self.missing_reference(&task.wanted);
-            if best >= PLAUSIBLE && missing.is_none() {
+            if ranked.first().is_some_and(is_plausible) && missing.is_none() {
                 return Ok(());
             }
             let reason =
                 missing.map_or("nothing here fits the words well".to_string(), |noun| format!("no {noun} seen yet"));
             self.pilot.because(format!("{reason}; looking from ({:.1}, {:.1})", lookout.x, lookout.y));
             self.look_round_at(lookout)?;
+        }
+        Ok(())
+    }
+
+    /// While a piece would fit better than the best if only it were surely what the words say, looks at it more closely.
+    fn study_rivals(&mut self, task: &Task, room: &RoomFrame, arrived: Pose) -> Result<(), Halt> {
+        for _ in 0..MOST_STUDIED {
+            let ranked = rank(&self.pilot.beliefs, &task.wanted, Place { room, arrived }, self.lexicon);
+            let furniture = &self.pilot.beliefs.furniture;
+            let inside = |r: &&Ranked| room.outline.contains(furniture[r.index].centre());
+            let Some(best) = ranked.iter().find(inside) else { return Ok(()) };
+            let likelier = |r: &&Ranked| r.at_best > best.at_best && !furniture[r.index].studied;
+            let rivals = ranked.iter().filter(inside).filter(likelier);
+            let Some(rival) = rivals.max_by(|a, b| a.at_best.total_cmp(&b.at_best)) else { return Ok(()) };
+            let (index, label) = (rival.index, furniture[rival.index].label());
+            self.pilot.beliefs.furniture[index].studied = true;
+            let (here, piece) = (self.pilot.pose(), self.pilot.beliefs.furniture[index].clone());
+            let Some(pose) = vantage(self.pilot.grid(), self.pilot.rooms(), here.position(), &piece) else { continue };
+            self.pilot.because(format!("{label} would fit better, if it is what the words say; looking at it closely"));
+            match self.pilot.go_to_pose(pose) {
+                Err(Halt::Blocked(_)) => continue,
+                other => other?,
+            }
+            self.pilot.look();
         }
         Ok(())
     }
@@ -136,7 +183,12 @@ impl Executive<'_> {
     fn check(&mut self, index: usize, object: Option<&str>) -> Result<Option<String>, Halt> {
         let furniture = self.pilot.beliefs.furniture[index].clone();
         self.pilot.beliefs.furniture[index].searched = true;
-        let poses = viewpoints(self.pilot.grid(), self.pilot.rooms(), self.pilot.pose().position(), &furniture);
+        let here = self.pilot.pose().position();
+        let mut poses = viewpoints(self.pilot.grid(), self.pilot.rooms(), here, &furniture);
+        // What lies at its edge may lie on something else, not known yet.
+        let seen = object.and_then(|name| self.pilot.beliefs.sighting(Some(name))).map(|s| vec2(s.x, s.y));
+        let there = seen.filter(|&point| self.pilot.beliefs.under(point) == Some(index));
+        poses.extend(there.and_then(|at| better_view(self.pilot.grid(), self.pilot.rooms(), here, at)));
         let mut reached = false;
         for pose in poses {
             match self.pilot.go_to_pose(pose) {
@@ -147,6 +199,8 @@ impl Executive<'_> {
                 self.approached.push(furniture.centre());
                 reached = true;
             }
+            let here = self.pilot.pose().position();
+            self.pilot.beliefs.furniture[index].looked_from.push(here);
             if let Some(sighting) = self.settle_on(&furniture.footprint, object)? {
                 self.found_at = Some(vec2(sighting.x, sighting.y));
                 return Ok(Some(format!("the {} is on {}", sighting.name.replace('_', " "), furniture.label())));
@@ -163,13 +217,18 @@ impl Executive<'_> {
 
     /// Faces the object; when it is in the picture but cannot be told for sure, looks from a better place.
     fn settle_on(&mut self, footprint: &Polygon, object: Option<&str>) -> Result<Option<ObjectSighting>, Halt> {
+        if self.sighted(footprint, object).is_none() {
+            // Noise hides a small thing in one picture and not in the next.
+            self.pilot.look();
+        }
         for _ in 0..MOST_SETTLING {
             let Some(sighting) = self.sighted(footprint, object) else { return Ok(None) };
             self.pilot.turn_to(bearing(self.pilot.pose(), &sighting))?;
             self.pilot.look();
-            match self.sighted(footprint, object) {
-                Some(facing) if facing.recognisable => return Ok(Some(facing)),
-                _ => {}
+            if let Some(facing) = self.sighted(footprint, object).filter(|facing| facing.recognisable)
+                && self.is_confirmed(&facing)
+            {
+                return Ok(Some(facing));
             }
             let here = self.pilot.pose().position();
             let Some(better) = better_view(self.pilot.grid(), self.pilot.rooms(), here, vec2(sighting.x, sighting.y))
@@ -182,7 +241,25 @@ impl Executive<'_> {
                 other => other?,
             }
         }
-        Ok(self.sighted(footprint, object).filter(|sighting| sighting.recognisable))
+        let last = self.sighted(footprint, object).filter(|sighting| sighting.recognisable);
+        Ok(last.filter(|sighting| self.is_confirmed(sighting)))
+    }
+
+    /// Whether a thing is near enough to be told, and more pictures name it so than name it otherwise.
+    fn is_confirmed(&mut self, sighting: &ObjectSighting) -> bool {
+        let (mut so, mut otherwise) = (0, 0);
+        for look in 0..=CONFIRMING_LOOKS {
+            if look > 0 {
+                self.pilot.look();
+            }
+            let there = |s: &&ObjectSighting| s.recognisable && s.distance_to(sighting) < SAME_THING_M;
+            let seen = self.pilot.view().objects.iter().filter(there);
+            let (same, other): (Vec<_>, Vec<_>) = seen.partition(|s| s.name == sighting.name);
+            so += usize::from(!same.is_empty());
+            otherwise += usize::from(!other.is_empty());
+        }
+        let away = self.pilot.pose().distance_to(vec2(sighting.x, sighting.y));
+        away < TOLD_M && 2 * so > CONFIRMING_LOOKS + 1 && so > otherwise
     }
 
     /// The object in the present picture: the named one, or any on the furniture when none is named.

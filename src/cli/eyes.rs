@@ -1,6 +1,6 @@
 //! Options of the simulated robot's eyes, which `drive` and `evaluate` spell alike.
 
-use crate::trial::Perception;
+use crate::trial::{Perception, Settings};
 use crate::world::camera::{Kinect, KinectFaults, Light};
 
 /// What the simulated robot's eyes report, and how good its Kinect is.
@@ -22,6 +22,11 @@ pub struct EyeArguments {
 }
 
 impl EyeArguments {
+    /// Settings with these eyes, else the usual ones.
+    pub fn settings(&self) -> Settings {
+        Settings { perception: self.perception, kinect: self.kinect(), ..Settings::default() }
+    }
+
     /// The simulated camera.
     pub fn kinect(&self) -> Kinect {
         let faults = KinectFaults { noise: self.depth_noise, loss: self.depth_loss, ..KinectFaults::default() };

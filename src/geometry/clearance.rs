@@ -41,8 +41,14 @@ impl ClearanceGrid {
 
     /// Adds something solid.
     pub fn add_polygon(&mut self, polygon: &Polygon) {
+        self.add_about(polygon, 0.0);
+    }
+
+    /// Adds something solid that may reach beyond its outline by `margin_m`.
+    pub fn add_about(&mut self, polygon: &Polygon, margin_m: f64) {
         let (low, high) = polygon.bounds();
-        self.lower(low, high, |point| polygon.distance_to(point));
+        let margin = Vec2::repeat(margin_m);
+        self.lower(low - margin, high + margin, |point| (polygon.distance_to(point) - margin_m).max(0.0));
     }
 
     fn lower(&mut self, low: Vec2, high: Vec2, distance: impl Fn(Vec2) -> f64) {
@@ -97,6 +103,14 @@ mod tests {
         assert_eq!(at(2.0, 2.0), 0.0);
         assert_eq!(at(9.0, 9.0), 0.0);
         assert!((at(3.95, 3.95) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn what_may_reach_farther_leaves_less_room() {
+        let mut grid = ClearanceGrid::new(vec2(0.0, 0.0), vec2(4.0, 4.0), 0.1, 1.0);
+        grid.add_about(&Polygon::rectangle(Pose::new(2.0, 2.0, 0.0), 1.0, 1.0), 0.2);
+        let at = |x, y| grid.clearance(grid.cell(vec2(x, y)));
+        assert!((at(2.05, 0.55) - 0.75).abs() < 1e-6 && at(2.05, 1.45) == 0.0);
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::floor_grid::{FloorGrid, project};
 use super::footprint::Footprint;
 use super::forest::Forest;
 use super::front::{Facing, Hidden, facings, hidden_sides};
+use super::items::parts_of_items;
 use super::joining::Joining;
 use super::measures::{Measured, measure};
 use super::model::{CATEGORIES, Model, NOTHING};
@@ -84,12 +85,20 @@ impl Detector {
 
     /// What one frame shows, in the frame's world; `map` tells which surfaces are walls.
     pub fn detect(&self, frame: &RgbdFrame, map: Option<&RoomMap>) -> View {
-        let parts = parts(frame, map, &self.model.joining, Some(&self.model.category));
+        self.view(frame, &parts(frame, map, &self.model.joining, Some(&self.model.category)))
+    }
+
+    /// The same of a frame of which each pixel's item is known, 0 for none.
+    pub fn detect_items(&self, frame: &RgbdFrame, map: Option<&RoomMap>, item_of: &[u16]) -> View {
+        self.view(frame, &parts_of_items(frame, map, item_of))
+    }
+
+    fn view(&self, frame: &RgbdFrame, parts: &Parts) -> View {
         let (mut furniture, mut objects) = (Vec::new(), Vec::new());
         for (number, piece) in (0_u32..).zip(&parts.segments.pieces) {
             let measured = measure(&parts.grid, &parts.walls, piece);
-            objects.extend(self.objects(frame, &parts, piece, measured.measures.plate));
-            furniture.extend(self.piece(&parts, number, piece, &measured));
+            objects.extend(self.objects(frame, parts, piece, measured.measures.plate));
+            furniture.extend(self.piece(parts, number, piece, &measured));
         }
         let furniture: Vec<Detection> = without_doubles(furniture).into_iter().map(rounded).collect();
         // Two witnesses: what was learned misses tall thin things, the usual measures miss small ones of odd colour.

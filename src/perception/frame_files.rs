@@ -8,14 +8,21 @@ use super::picture_files::{load_color, load_depth};
 use super::upright::camera_over_floor;
 use crate::frame::{Intrinsics, RgbdFrame, steady};
 
-/// A frame whose pictures lie in files.
+/// A frame whose pictures lie in files: the line that `perceive` reads, that it hands to a detector of one's own, and
+/// that training frames are written as.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct FrameFiles {
+    /// What it is called.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<String>,
     /// Colour picture, PNG or JPEG, registered to the depth; without it colour tells nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rgb: Option<PathBuf>,
     /// Depth picture, 16-bit grey PNG.
     pub depth: PathBuf,
+    /// Whose pixels they truly are, where that is known: item id + 1, grey PNG.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mask: Option<PathBuf>,
     /// Pixels across, checked against the pictures.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width: Option<usize>,
@@ -53,6 +60,25 @@ pub enum FrameError {
 }
 
 impl FrameFiles {
+    /// The line for a frame whose pictures are to lie in these files.
+    pub fn of(frame: &RgbdFrame, rgb: PathBuf, depth: PathBuf) -> Self {
+        let Intrinsics { fx, fy, cx, cy } = frame.intrinsics;
+        Self {
+            frame: None,
+            rgb: Some(rgb),
+            depth,
+            mask: None,
+            width: Some(frame.width),
+            height: Some(frame.height),
+            fx,
+            fy,
+            cx,
+            cy,
+            depth_unit_m: frame.depth_unit_m,
+            world_from_camera: Some(frame.world_from_camera),
+        }
+    }
+
     /// Reads the pictures and checks that they fit each other; relative paths are taken from `folder`.
     pub fn load(&self, folder: &Path) -> Result<RgbdFrame, FrameError> {
         let path = folder.join(&self.depth);

@@ -23,6 +23,7 @@ mod forest;
 mod frame_files;
 mod front;
 mod fusion;
+mod items;
 mod joining;
 mod measures;
 mod model;

@@ -30,7 +30,7 @@ const CONTRAST: i32 = 75;
 /// Fewer pixels are noise.
 const FEWEST_PIXELS: usize = 14;
 /// What is told for sure: pixels, distance from the picture's edge, metres from the camera.
-const RECOGNISABLE: (usize, usize, f64) = (45, 3, 2.1);
+const RECOGNISABLE: (usize, usize, f64) = (45, 3, 1.9);
 /// What fits no usual object better than this is not named for sure.
 const WORST_FIT: f64 = 14.0;
 
@@ -335,7 +335,7 @@ mod tests {
     use crate::perception::Eyes;
     use crate::perception::truth::TruthEyes;
     use crate::robot::simulated::Truth;
-    use crate::world::camera::{Kinect, SolidScene};
+    use crate::world::camera::{Camera, Kinect, SolidScene};
     use crate::world::{RoomMap, Scene};
 
     /// What is recognised on the furniture `on`, seen from 1.3 m to its east.
@@ -346,7 +346,7 @@ mod tests {
         let solids = SolidScene::new(&map, &scene);
         let (frame, _) = Kinect::default().capture(&solids, pose, &mut ChaCha8Rng::seed_from_u64(3));
         let truth = Rc::new(RefCell::new(Truth { pose, ..Truth::default() }));
-        let mut furniture = TruthEyes::new(&map, Rc::new(scene.clone()), truth).look(pose).furniture;
+        let mut furniture = TruthEyes::new(&map, Rc::new(scene.clone()), Camera::kinect(), truth).look(pose).furniture;
         furniture.retain(|piece| (vec2(piece.x, piece.y) - item.pose().position()).norm() < 1e-6);
         let seen = sightings(&frame, &furniture);
         seen.into_iter().filter(|s| s.recognisable).map(|s| s.name).collect()

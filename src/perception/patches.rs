@@ -35,7 +35,8 @@ pub struct Sums {
 }
 
 impl Sums {
-    fn add_cell(&mut self, grid: &FloorGrid, index: usize) {
+    /// Adds one cell.
+    pub fn add_cell(&mut self, grid: &FloorGrid, index: usize) {
         let cell = &grid.cells[index];
         let (place, top) = (grid.centre(index), f64::from(cell.top));
         self.count += 1.0;

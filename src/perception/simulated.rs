@@ -5,11 +5,9 @@ use std::rc::Rc;
 
 use rand_chacha::ChaCha8Rng;
 
-use super::objects::sightings;
 use super::{Detector, Eyes, View};
 use crate::frame::RgbdFrame;
 use crate::geometry::Pose;
-use crate::record::Detection;
 use crate::robot::simulated::Truth;
 use crate::world::camera::{Kinect, SolidScene};
 use crate::world::{RoomMap, Scene};
@@ -70,40 +68,31 @@ pub struct MaskEyes {
     kinect: SimulatedKinect,
     detector: Detector,
     map: RoomMap,
+    /// The furniture that each id of the mask counts as: small things count as what they lie on.
+    furniture_of: Vec<u16>,
+    last: Option<RgbdFrame>,
 }
-
-/// Fewer pixels of a piece tell nothing.
-const FEWEST_PIXELS: usize = 400;
 
 impl MaskEyes {
     /// Eyes behind a Kinect whose pixels know what they belong to.
-    pub fn new(kinect: SimulatedKinect, map: RoomMap) -> Self {
-        Self { kinect, detector: Detector::default(), map }
-    }
-
-    /// The largest thing the detector makes of one item's pixels, alone with floor and walls.
-    fn piece(&self, frame: &RgbdFrame, ids: &[u16], id: u16) -> Option<Detection> {
-        let mut alone = frame.clone();
-        for (depth, &other) in alone.depth.iter_mut().zip(ids) {
-            if other != 0 && other != id {
-                *depth = 0;
-            }
-        }
-        let found = self.detector.detect(&alone, Some(&self.map)).furniture;
-        found.into_iter().max_by(|a, b| (a.length * a.width).total_cmp(&(b.length * b.width)))
+    pub fn new(kinect: SimulatedKinect, map: RoomMap, scene: &Scene) -> Self {
+        let number = |on: &str| scene.furniture.iter().position(|item| item.id == on).map_or(0, |i| i as u16 + 1);
+        let furniture = 0..=scene.furniture.len() as u16;
+        let furniture_of = furniture.chain(scene.objects.iter().map(|object| number(&object.on))).collect();
+        Self { kinect, detector: Detector::default(), map, furniture_of, last: None }
     }
 }
 
 impl Eyes for MaskEyes {
     fn look(&mut self, believed: Pose) -> View {
-        let (frame, ids) = self.kinect.frame(believed);
-        let last = ids.iter().copied().max().unwrap_or(0);
-        let mut pixels = vec![0_usize; usize::from(last) + 1];
-        ids.iter().for_each(|&id| pixels[usize::from(id)] += 1);
-        let pieces = (1..=self.kinect.solids.furniture_count() as u16)
-            .filter(|&id| pixels.get(usize::from(id)).is_some_and(|&n| n >= FEWEST_PIXELS));
-        let furniture: Vec<Detection> = pieces.filter_map(|id| self.piece(&frame, &ids, id)).collect();
-        let objects = sightings(&frame, &furniture);
-        View { furniture, objects }
+        let (frame, mut ids) = self.kinect.frame(believed);
+        ids.iter_mut().for_each(|id| *id = self.furniture_of.get(usize::from(*id)).copied().unwrap_or(0));
+        let view = self.detector.detect_items(&frame, Some(&self.map), &ids);
+        self.last = Some(frame);
+        view
+    }
+
+    fn frame(&self) -> Option<&RgbdFrame> {
+        self.last.as_ref()
     }
 }

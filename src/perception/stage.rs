@@ -3,8 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use serde::Serialize;
-
 use super::external::ExternalDetector;
 use super::{Detector, FrameFiles, View, check, overlay};
 use crate::files::write_file;
@@ -72,8 +70,7 @@ impl Perceiver {
             StageError::new(format!("{what}; a frame needs depth, fx, fy, cx, cy and depth_unit_m"))
         })?;
         let frame = files.load(&self.folder).map_err(|error| StageError::new(error.to_string()))?;
-        let name = record.get::<String>("frame")?;
-        Ok((name.unwrap_or_else(|| stem(&files.depth)), frame))
+        Ok((files.frame.unwrap_or_else(|| stem(&files.depth)), frame))
     }
 }
 
@@ -81,41 +78,14 @@ fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "frame".to_string(), |stem| stem.to_string_lossy().to_string())
 }
 
-/// What the external detector reads: the numbers of a frame, and its pictures as files.
-#[derive(Serialize)]
-struct Handed {
-    rgb: PathBuf,
-    depth: PathBuf,
-    width: usize,
-    height: usize,
-    fx: f64,
-    fy: f64,
-    cx: f64,
-    cy: f64,
-    depth_unit_m: f64,
-    #[serde(rename = "T_world_cam")]
-    world_from_camera: [[f64; 4]; 4],
-}
-
 /// Frames may come from a recording, so the pictures are always handed over as files of their own.
 fn external_view(external: &ExternalDetector, frame: &RgbdFrame) -> Result<View, StageError> {
     let failed = |error: &dyn std::fmt::Display| StageError::new(format!("--detector: {error}"));
     let folder = tempfile::tempdir().map_err(|error| failed(&error))?;
-    let k = frame.intrinsics;
-    let handed = Handed {
-        rgb: folder.path().join("rgb.png"),
-        depth: folder.path().join("depth.png"),
-        width: frame.width,
-        height: frame.height,
-        fx: k.fx,
-        fy: k.fy,
-        cx: k.cx,
-        cy: k.cy,
-        depth_unit_m: frame.depth_unit_m,
-        world_from_camera: frame.world_from_camera,
-    };
-    write_file(&handed.rgb, &frame.color_png(), true).map_err(|error| failed(&error))?;
-    write_file(&handed.depth, &frame.depth_png(), true).map_err(|error| failed(&error))?;
+    let (rgb, depth) = (folder.path().join("rgb.png"), folder.path().join("depth.png"));
+    write_file(&rgb, &frame.color_png(), true).map_err(|error| failed(&error))?;
+    write_file(&depth, &frame.depth_png(), true).map_err(|error| failed(&error))?;
+    let handed = FrameFiles::of(frame, rgb, depth);
     let line = serde_json::to_string(&handed).map_err(|error| failed(&error))?;
     let furniture = external.detect(&line).map_err(|error| StageError::new(error.to_string()))?;
     Ok(View { furniture, objects: Vec::new() })

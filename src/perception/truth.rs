@@ -32,9 +32,9 @@ pub struct TruthEyes {
 
 impl TruthEyes {
     /// Eyes on the robot whose truth is given.
-    pub fn new(map: &RoomMap, scene: Rc<Scene>, truth: Rc<RefCell<Truth>>) -> Self {
+    pub fn new(map: &RoomMap, scene: Rc<Scene>, camera: Camera, truth: Rc<RefCell<Truth>>) -> Self {
         let solids = Rc::new(SolidScene::new(map, &scene));
-        Self { solids, scene, camera: Camera::kinect(), truth }
+        Self { solids, scene, camera, truth }
     }
 }
 

@@ -81,12 +81,11 @@ fn trusted(placed: Placed, camera: &str) -> Result<Placed, Unplaced> {
 fn tower() -> (Isometry3<f64>, String) {
     let camera = Camera::kinect();
     let said = format!("{:.1} m up, looking {:.0}° down", camera.tower_m, camera.tilt.to_degrees());
-    (tower_link() * optical_from_link().inverse(), said)
+    (tower_link(&camera) * optical_from_link().inverse(), said)
 }
 
-/// The robot's usual camera: base from `camera_link`.
-pub(super) fn tower_link() -> Isometry3<f64> {
-    let camera = Camera::kinect();
+/// Base from the `camera_link` of a camera on the robot's tower.
+pub(super) fn tower_link(camera: &Camera) -> Isometry3<f64> {
     let down = UnitQuaternion::from_euler_angles(0.0, camera.tilt, 0.0);
     Isometry3::from_parts(Translation3::new(0.0, 0.0, camera.tower_m), down)
 }

@@ -19,6 +19,7 @@ use super::time::{nanoseconds, timestamp};
 use super::timed_frame::in_space;
 use super::{LogError, TimedFrame};
 use crate::geometry::{ClearanceGrid, Pose, Vec2};
+use crate::world::camera::Camera;
 
 /// The log is handed to the disk at least this often, seconds of the trial.
 const FLUSH_S: f64 = 1.0;
@@ -41,15 +42,21 @@ struct Velocity {
 }
 
 impl TrialLog {
-    /// Begins a log at `path`; refuses a file that exists unless `force`. `about` says how the trial is run.
-    pub fn create(path: &Path, force: bool, about: BTreeMap<String, String>) -> Result<Self, LogError> {
+    /// Begins a log at `path`; refuses a file that exists unless `force`. `camera` is where it sits on the robot,
+    /// `about` says how the trial is run.
+    pub fn create(
+        path: &Path,
+        force: bool,
+        camera: &Camera,
+        about: BTreeMap<String, String>,
+    ) -> Result<Self, LogError> {
         let file = open(path, force)?;
         let mut log = LogWriter::new(BufWriter::new(file), Some(Compression::Zstd))?;
         log.metadata("spatial_fetch", about)?;
         let link = |parent: &str, child: &str, pose| transform(0, parent, child, pose);
         let fixed = vec![
             link("map", "odom", Isometry3::identity()),
-            link("base_link", "camera_link", tower_link()),
+            link("base_link", "camera_link", tower_link(camera)),
             link_to_optical(0),
         ];
         log.message("/tf_static", 0, &FrameTransforms { transforms: fixed })?;
@@ -205,7 +212,7 @@ mod tests {
     }
 
     fn write(path: &Path) {
-        let mut log = TrialLog::create(path, true, BTreeMap::new()).expect("created");
+        let mut log = TrialLog::create(path, true, &Camera::kinect(), BTreeMap::new()).expect("created");
         log.walls(&[(Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0))], 2.5);
         log.pose(0.1, Pose::new(1.0, 2.0, 0.5), (0.3, 0.0));
         log.sonar(0.1, &[Vec2::new(1.0, 0.0)]);
@@ -227,9 +234,9 @@ mod tests {
     fn the_camera_s_frames_come_back_where_they_were_taken() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("log.mcap");
-        let mut log = TrialLog::create(&path, true, BTreeMap::new()).expect("created");
+        let mut log = TrialLog::create(&path, true, &Camera::kinect(), BTreeMap::new()).expect("created");
         let robot = Pose::new(1.0, 2.0, 0.5);
-        let world_from_optical = in_space(robot) * tower_link() * link_from_optical();
+        let world_from_optical = in_space(robot) * tower_link(&Camera::kinect()) * link_from_optical();
         let matrix = world_from_optical.to_homogeneous();
         let frame = RgbdFrame {
             width: 1,
@@ -270,7 +277,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("log.mcap");
         write(&path);
-        let error = TrialLog::create(&path, false, BTreeMap::new()).err().expect("refused").to_string();
+        let error =
+            TrialLog::create(&path, false, &Camera::kinect(), BTreeMap::new()).err().expect("refused").to_string();
         assert!(error.contains("exists; name another file or give --force"), "{error}");
     }
 }

@@ -13,17 +13,19 @@ use crate::perception::boxes::BoxEyes;
 use crate::perception::simulated::{CameraEyes, MaskEyes, SimulatedKinect};
 use crate::perception::truth::TruthEyes;
 use crate::robot::simulated::Truth;
+use crate::world::camera::Kinect;
 
 /// The eyes that the settings ask for, on the robot whose truth is given.
 pub(super) fn eyes(home: &Home, settings: &Settings, stream: u64, truth: Rc<RefCell<Truth>>) -> Box<dyn Eyes> {
     let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
     rng.set_stream(stream);
-    let ideal = |truth| TruthEyes::new(&home.map, home.shared_scene(), truth);
-    let kinect = |truth, rng| SimulatedKinect::new(&home.map, &home.scene, settings.kinect, truth, rng);
+    let ideal = |truth| TruthEyes::new(&home.map, home.shared_scene(), home.camera(), truth);
+    let mounted = Kinect { camera: home.camera(), ..settings.kinect };
+    let kinect = |truth, rng| SimulatedKinect::new(&home.map, &home.scene, mounted, truth, rng);
     match settings.perception {
         Perception::Truth => Box::new(ideal(truth)),
         Perception::Boxes => Box::new(BoxEyes::new(ideal(truth), rng)),
-        Perception::Masks => Box::new(MaskEyes::new(kinect(truth, rng), home.map.clone())),
+        Perception::Masks => Box::new(MaskEyes::new(kinect(truth, rng), home.map.clone(), &home.scene)),
         Perception::Camera => Box::new(CameraEyes::new(kinect(truth, rng), home.map.clone())),
     }
 }
@@ -31,6 +33,6 @@ pub(super) fn eyes(home: &Home, settings: &Settings, stream: u64, truth: Rc<RefC
 /// Whether the object – any, when none is named – is truly recognisable to a robot at `pose`.
 pub(super) fn is_recognisable(home: &Home, object: Option<&str>, pose: Pose) -> bool {
     let truth = Rc::new(RefCell::new(Truth { pose, ..Truth::default() }));
-    let view = TruthEyes::new(&home.map, home.shared_scene(), truth).look(pose);
+    let view = TruthEyes::new(&home.map, home.shared_scene(), home.camera(), truth).look(pose);
     view.objects.iter().any(|sighting| sighting.recognisable && object.is_none_or(|name| name == sighting.name))
 }

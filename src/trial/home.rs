@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::rc::Rc;
 
+use crate::world::camera::Camera;
 use crate::world::{RoomMap, SHIPPED_HOMES, Scene, WorldError, load_map, load_world};
 
 /// A room map with the scene on it.
@@ -40,9 +41,15 @@ impl Home {
             map: map.name.clone(),
             furniture: Vec::new(),
             objects: Vec::new(),
-            noise: Default::default(),
+            noise: None,
+            camera: None,
         };
         Self { map, scene }
+    }
+
+    /// The simulated robot's camera.
+    pub fn camera(&self) -> Camera {
+        Camera::kinect().mounted(self.scene.camera.unwrap_or_default())
     }
 
     /// The scene, to be shared within one trial.

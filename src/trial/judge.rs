@@ -73,7 +73,8 @@ fn shortest_way(home: &Home, item: &Item) -> Option<f64> {
 
 fn as_seen(item: &Item) -> Option<Furniture> {
     let mut beliefs = Beliefs::default();
-    beliefs.take_in(&View { furniture: vec![ideal_detection(item)], objects: Vec::new() });
+    let far_off = Vec2::repeat(f64::MAX);
+    beliefs.take_in(&View { furniture: vec![ideal_detection(item)], objects: Vec::new() }, far_off);
     beliefs.furniture.pop()
 }
 

@@ -52,7 +52,8 @@ impl Outputs {
     /// What the robot's camera shows at the end of a trial.
     pub fn take_picture(home: &Home, run: &Run) -> RgbdFrame {
         let solids = SolidScene::new(&home.map, &home.scene);
-        Kinect::default().capture(&solids, run.final_pose, &mut ChaCha8Rng::seed_from_u64(0)).0
+        let kinect = Kinect { camera: home.camera(), ..Kinect::default() };
+        kinect.capture(&solids, run.final_pose, &mut ChaCha8Rng::seed_from_u64(0)).0
     }
 }
 

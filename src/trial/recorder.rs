@@ -35,7 +35,7 @@ impl Recorder {
             ("settings", format!("{settings:?}")),
         ];
         let about = about.into_iter().map(|(name, value)| (name.to_string(), value)).collect();
-        let mut log = TrialLog::create(path, force, about)?;
+        let mut log = TrialLog::create(path, force, &home.camera(), about)?;
         for (stage, line) in inputs(record) {
             log.record(0.0, stage, &line);
         }

@@ -85,7 +85,8 @@ fn film(path: PathBuf, home: Home, whereabouts: Arc<Mutex<Whereabouts>>, seed: u
 
 fn roll(path: &Path, home: &Home, whereabouts: &Mutex<Whereabouts>, seed: u64) -> Result<(), String> {
     let solids = SolidScene::new(&home.map, &home.scene);
-    let (kinect, mut rng) = (Kinect::default(), ChaCha8Rng::seed_from_u64(seed));
+    let kinect = Kinect { camera: home.camera(), ..Kinect::default() };
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let text = |error: &dyn std::fmt::Display| error.to_string();
     // A FIFO opens when its reader comes.
     let file = OpenOptions::new().write(true).create(true).truncate(true).open(path).map_err(|error| text(&error))?;

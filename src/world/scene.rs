@@ -12,7 +12,7 @@ use super::error::{WorldError, parse, read};
 use super::furniture::{self, Category, Shape, Size, SmallObject};
 use super::mesh::{Mesh, MeshFile, Point};
 use super::solid::{Color, Solid};
-use super::{Noise, RoomMap};
+use super::{CameraMount, Noise, RoomMap};
 use crate::geometry::{Polygon, Pose, Vec2, vec2};
 
 /// Furniture and objects, on a room map.
@@ -35,6 +35,9 @@ pub struct Scene {
     /// How imperfect the simulated robot is here, where it is not the usual one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<Noise>,
+    /// Where the simulated robot's camera sits, where it is not the usual place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera: Option<CameraMount>,
 }
 
 /// What stands at `map`.
@@ -261,6 +264,7 @@ impl Scene {
             furniture: Vec::new(),
             objects: Vec::new(),
             noise: None,
+            camera: None,
         })
     }
 

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use spatial_fetch::cli::{self, Common, Exit, Failure, HomeArguments};
+use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, HomeArguments};
 use spatial_fetch::evaluation::behavior::{Selection, Source, Study, behavior_tables, conditions, instructions};
-use spatial_fetch::trial::{Home, NoiseLevel, Perception, Settings};
+use spatial_fetch::trial::{Home, NoiseLevel, Settings};
 use spatial_fetch::world::Scene;
 
 #[derive(Args)]
@@ -24,9 +24,8 @@ pub struct Arguments {
     /// Trials of each instruction, each with its own errors of odometry, sonar and start pose
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..))]
     seeds: u64,
-    /// What the robot's eyes report
-    #[arg(long, value_enum, default_value = "truth")]
-    perception: Perception,
+    #[command(flatten)]
+    eyes: EyeArguments,
     /// How imperfect the robot's wheels, sonars, compass and start are
     #[arg(long, value_enum, default_value = "default")]
     noise: NoiseLevel,
@@ -53,7 +52,7 @@ impl Arguments {
             instructions,
             conditions: conditions(&homes, self.ablations),
             placements: homes.len(),
-            settings: Settings { perception: self.perception, noise: self.noise, seed, ..Settings::default() },
+            settings: Settings { noise: self.noise, seed, ..self.eyes.settings() },
             seeds: self.seeds,
             explained: self.explain,
         };

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use spatial_fetch::behavior::Options;
-use spatial_fetch::cli::{self, Common, Exit, Failure};
+use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure};
 use spatial_fetch::evaluation::robustness::{
     Experiment, Robustness, gold_homes, homes, own_homes, placements, read_gold_lines, read_texts,
 };
@@ -41,6 +41,8 @@ pub struct Arguments {
     #[arg(long)]
     no_glance: bool,
     #[command(flatten)]
+    eyes: EyeArguments,
+    #[command(flatten)]
     pub common: Common,
 }
 
@@ -53,7 +55,7 @@ impl Arguments {
 
     fn measure(&self, done: &(dyn Fn() + Sync)) -> Result<Robustness, Failure> {
         let options = Options { no_glance: self.no_glance, ..Options::default() };
-        let settings = Settings { options, seed: self.common.seed, ..Settings::default() };
+        let settings = Settings { options, seed: self.common.seed, ..self.eyes.settings() };
         let experiment = Experiment { settings, seeds: self.seeds, done };
         let corpus = cli::load_gold(self.corpus.as_deref())?;
         let home = Home::load(None, self.world.as_deref()).map_err(failed)?;

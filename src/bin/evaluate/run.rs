@@ -29,8 +29,7 @@ impl Arguments {
         let gold = cli::load_gold(self.gold.as_deref())?;
         let home = self.home.load()?;
         let options = Options { blind: self.blind, ..Options::default() };
-        let (perception, kinect) = (self.eyes.perception, self.eyes.kinect());
-        let settings = Settings { options, perception, kinect, seed: self.common.seed, ..Settings::default() };
+        let settings = Settings { options, seed: self.common.seed, ..self.eyes.settings() };
         let lines = run_corpus(&gold, &home, &settings);
         let scores = score(&gold, &lines).map_err(Failure::Failed)?;
         let title = format!("{} descriptions, {} records", gold.len(), lines.len());

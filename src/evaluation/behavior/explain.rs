@@ -10,7 +10,7 @@ use crate::behavior::motion::RoomFrame;
 use crate::behavior::search::{Ranked, Wanted, rank};
 use crate::behavior::{Beliefs, Place};
 use crate::evaluation::Rate;
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Vec2};
 use crate::language::Lexicon;
 use crate::perception::View;
 use crate::record::{Action, Frame, Plan, SearchPair};
@@ -124,7 +124,8 @@ impl Known<'_> {
     fn rank(&self, wanted: &Wanted) -> Vec<Ranked> {
         let mut beliefs = Beliefs::default();
         for item in &self.items {
-            beliefs.take_in(&View { furniture: vec![ideal_detection(item)], objects: Vec::new() });
+            beliefs
+                .take_in(&View { furniture: vec![ideal_detection(item)], objects: Vec::new() }, Vec2::repeat(f64::MAX));
         }
         rank(&beliefs, wanted, Place { room: &self.frame, arrived: self.arrived }, Lexicon::embedded())
     }

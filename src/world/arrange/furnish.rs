@@ -48,6 +48,7 @@ impl<'a> Furnisher<'a> {
             furniture: Vec::new(),
             objects: Vec::new(),
             noise: None,
+            camera: None,
         };
         Self { map, scene, dice }
     }

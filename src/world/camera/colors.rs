@@ -2,8 +2,10 @@
 
 use std::sync::OnceLock;
 
+use multiversion::multiversion;
+
 use super::faces::{Face, Point, Texture};
-use super::noise::{Gaussians, Scatter};
+use super::noise::{Gaussians, Scatter, Table};
 use super::raster::{Canvas, View};
 
 /// Light of a room.
@@ -38,7 +40,7 @@ struct Paint {
     /// Pattern coordinates: at the eye, and per metre of depth as coefficients of column, row and one.
     eye: [f32; 2],
     over: [Point; 2],
-    pattern: &'static [f32],
+    pattern: &'static [f32; SIDE * SIDE],
 }
 
 impl Paint {
@@ -81,18 +83,17 @@ fn scale(texture: Texture) -> (f64, f64) {
 }
 
 /// Brightness patterns, [`SIDE`] × [`SIDE`] each, in the order of [`Texture`].
-fn patterns() -> &'static [Vec<f32>; 5] {
-    static PATTERNS: OnceLock<[Vec<f32>; 5]> = OnceLock::new();
+fn patterns() -> &'static [[f32; SIDE * SIDE]; 5] {
+    static PATTERNS: OnceLock<Box<[[f32; SIDE * SIDE]; 5]>> = OnceLock::new();
     PATTERNS.get_or_init(|| {
-        let grid =
-            |value: fn(usize, usize) -> f32| (0..SIDE * SIDE).map(|i| value(i % SIDE, i / SIDE)).collect::<Vec<f32>>();
-        [
+        let grid = |value: fn(usize, usize) -> f32| std::array::from_fn(|i| value(i % SIDE, i / SIDE));
+        Box::new([
             grid(|_, _| 1.0),
             grid(|u, v| 0.93 + 0.14 * hash(u, v)),
             grid(|u, v| 0.86 + 0.2 * hash(u, 7) + 0.08 * hash(u, v)),
             grid(|u, v| if u % 8 == 0 { 0.8 } else { 0.92 + 0.12 * hash(u / 8, 3) + 0.05 * hash(u, v) }),
             grid(|u, v| if u % 32 == 0 || v % 32 == 0 { 0.78 } else { 0.95 + 0.08 * hash(u / 32, v / 32) }),
-        ]
+        ])
     })
 }
 
@@ -109,7 +110,8 @@ pub(super) fn paint(view: &View, faces: &[Face], canvas: &Canvas, light: &Light,
     let mut paints: Vec<Option<Paint>> = Vec::new();
     paints.resize_with(faces.len(), || None);
     let mut picture = vec![BACKDROP; canvas.face.len()];
-    let (gaussians, mut scatter) = (Gaussians::shared(), Scatter::new(seed));
+    let mut brush = Brush { noise: Gaussians::shared().tabled(|deviate| NOISE * deviate), scatter: Scatter::new(seed) };
+    let mut spots = vec![0_u16; canvas.width];
     for row in 0..canvas.height {
         let mut from = row * canvas.width;
         let end = from + canvas.width;
@@ -119,17 +121,9 @@ pub(super) fn paint(view: &View, faces: &[Face], canvas: &Canvas, light: &Light,
             if number > 0 {
                 let face = number as usize - 1;
                 let paint = paints[face].get_or_insert_with(|| Paint::new(view, &faces[face], light));
-                let pixels = &mut picture[from..from + run];
-                paint_run(
-                    paint,
-                    pixels,
-                    &canvas.inverse[from..from + run],
-                    (from % canvas.width, row),
-                    |pixel, rgb| {
-                        let noise = NOISE * gaussians.pick(scatter.bits());
-                        *pixel = rgb.map(|c| (c + noise) as u8);
-                    },
-                );
+                let spots = &mut spots[..run];
+                paint.spots(spots, &canvas.inverse[from..from + run], from % canvas.width, row);
+                brush.stroke(paint, spots, &mut picture[from..from + run]);
             }
             from += run;
         }
@@ -137,21 +131,39 @@ pub(super) fn paint(view: &View, faces: &[Face], canvas: &Canvas, light: &Light,
     picture
 }
 
-/// Paints a run of pixels of one face on one row.
-fn paint_run(
-    paint: &Paint,
-    pixels: &mut [[u8; 3]],
-    inverse: &[f32],
-    (column, row): (usize, usize),
-    mut put: impl FnMut(&mut [u8; 3], [f32; 3]),
-) {
-    let start = |axis: &Point| (axis.x * column as f64 + axis.y * row as f64 + axis.z) as f32;
-    let (u, v) = (start(&paint.over[0]), start(&paint.over[1]));
-    let (du, dv) = (paint.over[0].x as f32, paint.over[1].x as f32);
-    for (i, (pixel, inverse)) in pixels.iter_mut().zip(inverse).enumerate() {
+impl Paint {
+    /// Where in the pattern each pixel of a run on one row lies.
+    fn spots(&self, spots: &mut [u16], inverse: &[f32], column: usize, row: usize) {
+        let start = |axis: &Point| (axis.x * column as f64 + axis.y * row as f64 + axis.z) as f32;
+        let step = |axis: &Point| axis.x as f32;
+        let [u, v] = &self.over;
+        spread(spots, inverse, self.eye, [start(u), start(v)], [step(u), step(v)]);
+    }
+}
+
+#[multiversion(targets("x86_64+avx2", "x86_64+sse4.1"))]
+fn spread(spots: &mut [u16], inverse: &[f32], eye: [f32; 2], start: [f32; 2], step: [f32; 2]) {
+    for (i, (spot, inverse)) in spots.iter_mut().zip(inverse).enumerate() {
         let depth = 1.0 / inverse;
-        let at = |eye: f32, start: f32, step: f32| (eye + (start + i as f32 * step) * depth) as i32 as usize % SIDE;
-        let tone = paint.pattern[at(paint.eye[1], v, dv) * SIDE + at(paint.eye[0], u, du)];
-        put(pixel, paint.color.map(|c| c * tone));
+        let u = (eye[0] + (start[0] + i as f32 * step[0]) * depth) as i32 & (SIDE as i32 - 1);
+        let v = (eye[1] + (start[1] + i as f32 * step[1]) * depth) as i32 & (SIDE as i32 - 1);
+        *spot = (v * SIDE as i32 + u) as u16;
+    }
+}
+
+/// Puts colour with the camera's noise into the picture.
+struct Brush {
+    noise: Table<f32>,
+    scatter: Scatter,
+}
+
+impl Brush {
+    fn stroke(&mut self, paint: &Paint, spots: &[u16], pixels: &mut [[u8; 3]]) {
+        let [red, green, blue] = paint.color;
+        for (pixel, spot) in pixels.iter_mut().zip(spots) {
+            let noise = self.noise.pick(self.scatter.bits());
+            let tone = paint.pattern[usize::from(*spot) % (SIDE * SIDE)];
+            *pixel = [(red * tone + noise) as u8, (green * tone + noise) as u8, (blue * tone + noise) as u8];
+        }
     }
 }

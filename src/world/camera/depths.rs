@@ -6,7 +6,7 @@
 //! Lateral noise is 0.8 px (Nguyen et al. 2012).
 
 use super::faces::{Face, Texture};
-use super::noise::{Gaussians, Scatter};
+use super::noise::{Gaussians, Scatter, Table};
 use super::raster::{Canvas, View};
 
 /// Focal length times baseline, pixels × metres.
@@ -83,13 +83,22 @@ struct Sensor<'c> {
     responses: Vec<Response>,
     /// Depth of each disparity step, millimetres.
     depths: Vec<u16>,
+    /// Noise of the disparity, pixels.
+    noise: Table<f32>,
+    /// Lateral noise, pixels, counted from [`AIM`] less.
+    aside: Table<u32>,
+    /// Of each column the square of its ray's length, less the row's part.
+    across: Vec<f32>,
     scatter: Scatter,
     patches: Scatter,
     lost: Vec<bool>,
     shadowed: Vec<bool>,
-    centre: (f32, f32),
+    middle_row: f32,
     focal: f32,
 }
+
+/// No pixel looks so far aside.
+const AIM: usize = 16;
 
 impl<'c> Sensor<'c> {
     fn new(view: &View, faces: &[Face], canvas: &'c Canvas, faults: KinectFaults, seed: u64) -> Self {
@@ -101,18 +110,26 @@ impl<'c> Sensor<'c> {
             Response { plane: face.normal.dot(&(face.corners[0] - view.eye)).abs() as f32, darkness }
         };
         let responses = std::iter::once(Response::default()).chain(faces.iter().map(response)).collect();
-        let (cx, cy) = view.centre();
+        let ((cx, cy), focal) = (view.centre(), view.camera.focal as f32);
+        let across = (0..canvas.width).map(|column| {
+            let x = (column as f32 - cx as f32) / focal;
+            1.0 + x * x
+        });
+        let (gaussians, level) = (Gaussians::shared(), faults.noise as f32);
         Self {
             canvas,
             faults,
             responses,
             depths: depth_of_steps(faults.range),
+            noise: gaussians.tabled(|deviate| DISPARITY_NOISE * level * deviate),
+            aside: gaussians.tabled(|deviate| (LATERAL_NOISE * level * deviate + AIM as f32 + 0.5) as u32),
+            across: across.collect(),
             scatter: Scatter::new(seed),
             patches: Scatter::new(seed ^ 0x5EED),
             lost: vec![false; canvas.width.div_ceil(PATCH)],
             shadowed: vec![false; canvas.width],
-            centre: (cx as f32, cy as f32),
-            focal: view.camera.focal as f32,
+            middle_row: cy as f32,
+            focal,
         }
     }
 
@@ -126,51 +143,57 @@ impl<'c> Sensor<'c> {
             self.cast_shadow(row);
         }
         let single = (0.4 * self.faults.loss * 65536.0) as f32;
+        let y = (row as f32 - self.middle_row) / self.focal;
         for (column, depth) in line.iter_mut().enumerate() {
             let bits = self.scatter.bits();
+            if self.shadowed[column] || self.lost[column / PATCH] {
+                continue;
+            }
             let (inverse, face) = self.seen_at(row, column, bits);
-            let gone = self.shadowed[column] || self.lost[column / PATCH] || inverse <= 0.0;
-            let chance = single + self.face_loss(face, inverse, row, column);
-            if !gone && ((bits >> 16) as f32) >= chance {
+            let chance = single + 65536.0 * self.face_loss(face, inverse, self.across[column] + y * y);
+            if inverse > 0.0 && ((bits >> 16) as f32) >= chance {
                 *depth = self.depth(inverse, bits);
             }
         }
     }
 
     /// Inverse depth and face where the pixel truly looks: lateral noise mixes up neighbours.
+    #[inline(always)]
     fn seen_at(&self, row: usize, column: usize, bits: u32) -> (f32, u32) {
         let canvas = self.canvas;
         let mut at = row * canvas.width + column;
         if self.faults.noise > 0.0 {
-            let sigma = LATERAL_NOISE * self.faults.noise as f32;
-            let gaussians = Gaussians::shared();
-            let offset = |bits: u32| (sigma * gaussians.pick(bits) + 16.5) as usize;
-            let x = (column + offset(bits.wrapping_mul(0x9E37_79B1) >> 20)).clamp(16, canvas.width + 15) - 16;
-            let y = (row + offset(bits.wrapping_mul(0x85EB_CA77) >> 20)).clamp(16, canvas.height + 15) - 16;
+            let aimed = |here: usize, bits: u32, size: usize| {
+                (here + self.aside.pick(bits >> 20) as usize).clamp(AIM, size + AIM - 1) - AIM
+            };
+            let x = aimed(column, bits.wrapping_mul(0x9E37_79B1), canvas.width);
+            let y = aimed(row, bits.wrapping_mul(0x85EB_CA77), canvas.height);
             at = y * canvas.width + x;
         }
         (canvas.inverse[at], canvas.face[at])
     }
 
-    /// Probability that a face gives no return, times 65536.
-    fn face_loss(&self, face: u32, inverse: f32, row: usize, column: usize) -> f32 {
+    /// Probability that a face gives no return to a pixel whose ray has a length of the root of `length_squared`.
+    #[inline(always)]
+    fn face_loss(&self, face: u32, inverse: f32, length_squared: f32) -> f32 {
         let response = self.responses[face as usize];
         let mut chance = 0.0;
-        if self.faults.grazing {
-            let (x, y) = ((column as f32 - self.centre.0) / self.focal, (row as f32 - self.centre.1) / self.focal);
-            let cosine = response.plane * inverse / (1.0 + x * x + y * y).sqrt();
+        let upright = response.plane * inverse;
+        // Nearly all faces are seen at no grazing angle: the root is left out for them.
+        if self.faults.grazing && upright * upright < 1.01 * GRAZING.0 * GRAZING.0 * length_squared {
+            let cosine = upright / length_squared.sqrt();
             chance += ((GRAZING.0 - cosine) / (GRAZING.0 - GRAZING.1)).clamp(0.0, 1.0);
         }
         if self.faults.dark && response.darkness > 0.0 {
             chance += response.darkness * (1.0 / inverse - 1.5).max(0.0);
         }
-        chance * 65536.0
+        chance
     }
 
     /// Millimetres that the sensor makes of an inverse depth.
+    #[inline(always)]
     fn depth(&self, inverse: f32, bits: u32) -> u16 {
-        let noise = DISPARITY_NOISE * self.faults.noise as f32 * Gaussians::shared().pick(bits);
-        let disparity = FOCAL_BASELINE * inverse + noise;
+        let disparity = FOCAL_BASELINE * inverse + self.noise.pick(bits);
         if self.faults.steps {
             let step = (STEPS * disparity + 0.5) as usize;
             return self.depths.get(step).copied().unwrap_or(0);

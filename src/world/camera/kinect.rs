@@ -45,7 +45,8 @@ impl Kinect {
         }
         let color = paint(&view, &scene.faces, &canvas, &self.light, rng.next_u64());
         let depth = measure(&view, &scene.faces, &canvas, &self.faults, rng.next_u64());
-        let ids = canvas.face.iter().map(|&f| if f == 0 { 0 } else { scene.faces[f as usize - 1].id }).collect();
+        let id_of: Vec<u16> = std::iter::once(0).chain(scene.faces.iter().map(|face| face.id)).collect();
+        let ids = canvas.face.iter().map(|&face| id_of[face as usize]).collect();
         let (cx, cy) = view.centre();
         let frame = RgbdFrame {
             width: self.camera.width,

@@ -33,6 +33,7 @@ pub use solids::SolidScene;
 pub use visibility::{Seen, Visibility};
 
 use crate::geometry::{Pose, Vec2, vec2};
+use crate::world::CameraMount;
 use crate::world::solid::Ray;
 
 /// A pinhole camera on the robot's tower, looking ahead.
@@ -55,7 +56,13 @@ pub struct Camera {
 impl Camera {
     /// A Kinect at 640 × 480 with 62.7° × 49.1°, 1.2 m up, 15° down.
     pub fn kinect() -> Self {
-        Self { width: 640, height: 480, focal: 525.0, tower_m: 1.2, tilt: 15.0_f64.to_radians(), near_m: 0.1 }
+        let mount = CameraMount::default();
+        Self { width: 640, height: 480, focal: 525.0, tower_m: 0.0, tilt: 0.0, near_m: 0.1 }.mounted(mount)
+    }
+
+    /// The same camera elsewhere on the robot.
+    pub fn mounted(self, mount: CameraMount) -> Self {
+        Self { tower_m: mount.height_m, tilt: mount.tilt_deg.to_radians(), ..self }
     }
 
     /// The same view with fewer pixels.

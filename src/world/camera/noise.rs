@@ -17,9 +17,22 @@ impl Gaussians {
         SHARED.get_or_init(|| Self { table: (0..COUNT).map(|i| quantile((i as f64 + 0.5) / COUNT as f64)).collect() })
     }
 
-    /// The deviate that the low twelve bits pick.
-    pub fn pick(&self, bits: u32) -> f32 {
-        self.table[bits as usize % COUNT]
+    /// What `of` makes of each deviate, to be picked by twelve bits.
+    pub fn tabled<T>(&self, of: impl Fn(f32) -> T) -> Table<T> {
+        Table { values: self.table.iter().map(|deviate| of(*deviate)).collect() }
+    }
+}
+
+/// Something of normal deviates, made once for many pixels.
+pub(super) struct Table<T> {
+    values: Vec<T>,
+}
+
+impl<T: Copy> Table<T> {
+    /// What the low twelve bits pick.
+    #[inline(always)]
+    pub fn pick(&self, bits: u32) -> T {
+        self.values[bits as usize % COUNT]
     }
 }
 
@@ -53,6 +66,7 @@ impl Scatter {
     }
 
     /// The next 32 bits.
+    #[inline(always)]
     pub fn bits(&mut self) -> u32 {
         self.state ^= self.state >> 12;
         self.state ^= self.state << 25;

@@ -41,11 +41,6 @@ impl SolidScene {
         Self { furniture, objects, walls: map.walls(), wall_height: map.wall_height, faces }
     }
 
-    /// How many of the items are furniture: in a mask, ids 1 to this.
-    pub fn furniture_count(&self) -> usize {
-        self.furniture.len()
-    }
-
     /// What the renderer draws.
     pub fn faces(&self) -> &Faces {
         &self.faces

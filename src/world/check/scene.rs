@@ -2,7 +2,7 @@
 
 use super::{Checker, TOLERANCE_M, nearest_name};
 use crate::geometry::{Polygon, distance_to_segment, vec2};
-use crate::world::{CATEGORIES, Item, PlacedObject, Room, RoomMap, Scene, WorldError};
+use crate::world::{CATEGORIES, CameraMount, Item, PlacedObject, Room, RoomMap, Scene, WorldError};
 
 /// Checks a scene against its room map.
 pub fn check(scene: &Scene, map: &RoomMap, file: &str) -> Result<(), WorldError> {
@@ -11,6 +11,7 @@ pub fn check(scene: &Scene, map: &RoomMap, file: &str) -> Result<(), WorldError>
     checker.require(scene.map == map.name, "map", || {
         format!("the scene is for the map `{}`, the map given is `{}`; give the one it names", scene.map, map.name)
     })?;
+    check_camera(&checker, scene)?;
     checker.unique("furniture", scene.furniture.iter().map(|item| item.id.as_str()))?;
     checker.unique("object", scene.objects.iter().map(|object| object.id.as_str()))?;
     for item in &scene.furniture {
@@ -21,6 +22,23 @@ pub fn check(scene: &Scene, map: &RoomMap, file: &str) -> Result<(), WorldError>
         check_object(&checker, scene, object)?;
     }
     Ok(())
+}
+
+/// The highest camera a robot's tower carries, metres.
+const HIGHEST_CAMERA_M: f64 = 2.0;
+/// How far a camera looks up or down and still shows the room, degrees.
+const STEEPEST_DEG: f64 = 60.0;
+
+fn check_camera(checker: &Checker, scene: &Scene) -> Result<(), WorldError> {
+    let CameraMount { height_m, tilt_deg } = scene.camera.unwrap_or_default();
+    checker.require((0.1..=HIGHEST_CAMERA_M).contains(&height_m), "camera", || {
+        format!(
+            "height_m {height_m} is no height of a robot's camera; give 0.1 to {HIGHEST_CAMERA_M} m above the floor"
+        )
+    })?;
+    checker.require((-STEEPEST_DEG..=STEEPEST_DEG).contains(&tilt_deg), "camera", || {
+        format!("tilt_deg {tilt_deg} shows no room; give -{STEEPEST_DEG} (up) to {STEEPEST_DEG} (down) degrees")
+    })
 }
 
 fn check_item(checker: &Checker, map: &RoomMap, item: &Item) -> Result<(), WorldError> {
@@ -153,6 +171,16 @@ mod tests {
     fn not_a_number_and_no_size_are_refused() {
         assert!(scene_error(|s| s.furniture[0].x = f64::NAN).contains("must be numbers"));
         assert!(scene_error(|s| s.furniture[0].length = Some(-1.0)).contains("sizes must be above 0 m"));
+    }
+
+    #[test]
+    fn a_camera_on_the_ceiling_or_looking_at_its_own_feet_is_refused() {
+        let mounted = |height_m, tilt_deg| scene_error(|s| s.camera = Some(CameraMount { height_m, tilt_deg }));
+        assert!(
+            mounted(120.0, 15.0).contains("camera: height_m 120 is no height of a robot's camera; give 0.1 to 2 m")
+        );
+        assert!(mounted(1.2, 89.0).contains("camera: tilt_deg 89 shows no room"));
+        assert!(mounted(f64::NAN, 15.0).contains("camera: height_m NaN"));
     }
 
     #[test]
