@@ -107,7 +107,7 @@ impl Track {
         let model = of_best.fold(None::<&Detection>, |s, v| s.filter(|s| s.confidence >= v.confidence).or(Some(v)));
         let model = model.unwrap_or(surest);
         let missed = self.views.iter().map(|view| 1.0 - view.confidence).product::<f64>();
-        let (pose, [length, width, height]) = self.average(model);
+        let (pose, [length, width, height]) = self.average(model, best.0);
         let mut fused = Detection {
             category: best.0.to_string(),
             confidence: best.1 * (1.0 - missed),
@@ -145,7 +145,7 @@ impl Track {
     }
 
     /// The mean box of the views that stand as the model does, the surer ones counting more.
-    fn average(&self, model: &Detection) -> (Pose, [f64; 3]) {
+    fn average(&self, model: &Detection, category: &str) -> (Pose, [f64; 3]) {
         let heading = heading(model);
         let (mut middle, mut sides, mut total) = (Vec2::zeros(), [0.0; 3], 0.0);
         let (mut sin, mut cos) = (0.0, 0.0);
@@ -156,7 +156,9 @@ impl Track {
             if off.abs() > 0.3 {
                 continue;
             }
-            let weight = view.confidence.powi(2).max(1e-6);
+            // A box is completed to what the view takes the piece for.
+            let agrees = view.scores.get(category).copied().unwrap_or(0.0);
+            let weight = (view.confidence * agrees).powi(2).max(1e-6);
             let (length, width) =
                 if quarter.rem_euclid(2.0) == 0.0 { (view.length, view.width) } else { (view.width, view.length) };
             middle += vec2(view.x, view.y) * weight;
