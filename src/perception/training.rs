@@ -51,9 +51,9 @@ pub fn train(schooling: Schooling) -> Model {
         examples.iter().filter(|(lesson, _)| *lesson == wanted).map(|(_, example)| example.clone()).collect()
     };
     let pairs = of(0, frames / 2, &joining_examples);
-    let joining = grow(lesson(&pairs, Lesson::Joining), 2, 14, 11, 8);
+    let joining = grow(lesson(&pairs, Lesson::Joining), 2, 20, 11, 8);
     let pieces = of(0, frames, &|labelled| piece_examples(labelled, &joining));
-    let category = grow(lesson(&pieces, Lesson::Category), NOTHING + 1, 50, 16, 3);
+    let category = grow(lesson(&pieces, Lesson::Category), NOTHING + 1, 80, 16, 3);
     let object = grow(lesson(&pieces, Lesson::Object), OBJECTS.len() + 1, 24, 14, 4);
     // Frames the categories were not learned from, so that their chances are as unsure as in use.
     let fronts = of(frames, frames + frames / 2, &|labelled| front_examples(labelled, &joining, &category));
