@@ -16,6 +16,8 @@ const FLOOR: f64 = 0.05;
 const ATTRIBUTE_MISSED: f64 = 0.85;
 /// A category that the looks at a piece speak for by less than this is not considered.
 const DOUBTFUL: f64 = 0.2;
+/// How likely what holds something small is a table, of what was not taken for one.
+const HOLDING: f64 = 0.5;
 /// From here on the category is not in doubt.
 const SURE: f64 = 0.98;
 /// A pair that the best candidate fits by less than this is not fulfilled.
@@ -115,7 +117,9 @@ fn candidates(beliefs: &Beliefs, target: Option<&str>, lexicon: &Lexicon) -> Vec
 /// How sure the robot is that a piece is what the target's noun names.
 fn belief_in_target(furniture: &Furniture, target: Option<&str>, lexicon: &Lexicon) -> f64 {
     let class = target.and_then(|noun| lexicon.class_of(noun)).unwrap_or(Class::TableLike);
-    furniture.belief(|category| lexicon.class_of(category) == Some(class) || Some(category) == target)
+    let belief = furniture.belief(|category| lexicon.class_of(category) == Some(class) || Some(category) == target);
+    // A monitor on a table passes for a chair's back; seats hold nothing small.
+    if furniture.holds && class == Class::TableLike { 1.0 - (1.0 - belief) * (1.0 - HOLDING) } else { belief }
 }
 
 fn factors(
