@@ -40,7 +40,8 @@ pub fn viewpoints(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, furni
         .map(|point| ((point - from).norm() + 0.5 * (point - centre).norm(), point))
         .collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let fresh: Vec<(f64, Vec2)> = places.iter().copied().filter(|(_, point)| is_other_side(furniture, *point)).collect();
+    let fresh: Vec<(f64, Vec2)> =
+        places.iter().copied().filter(|(_, point)| is_other_side(furniture, *point)).collect();
     let first = cheapest(grid, from, &fresh).or_else(|| cheapest(grid, from, &places));
     let Some(first) = first else { return Vec::new() };
     let mut poses = vec![facing(first, centre)];

@@ -297,7 +297,8 @@ mod tests {
     fn a_label_that_flickers_makes_no_second_item_and_the_surer_look_stays() {
         let mut beliefs = Beliefs::default();
         for (category, confidence) in [("table", 0.9), ("bed", 0.4)] {
-            beliefs.take_in(&View { furniture: vec![detection(category, 1.0, confidence)], objects: Vec::new() }, FAR_OFF);
+            beliefs
+                .take_in(&View { furniture: vec![detection(category, 1.0, confidence)], objects: Vec::new() }, FAR_OFF);
         }
         assert_eq!(beliefs.furniture.len(), 1);
         assert_eq!(beliefs.furniture[0].detection.category, "table");
@@ -307,7 +308,8 @@ mod tests {
     fn the_category_is_what_most_looks_say_and_the_others_are_not_forgotten() {
         let mut beliefs = Beliefs::default();
         for (category, confidence) in [("chair", 0.8), ("table", 0.7), ("table", 0.7)] {
-            beliefs.take_in(&View { furniture: vec![detection(category, 1.0, confidence)], objects: Vec::new() }, FAR_OFF);
+            beliefs
+                .take_in(&View { furniture: vec![detection(category, 1.0, confidence)], objects: Vec::new() }, FAR_OFF);
         }
         let piece = &beliefs.furniture[0];
         assert_eq!(piece.detection.category, "table");

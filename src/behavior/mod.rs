@@ -22,6 +22,7 @@ mod relation;
 mod route;
 pub mod search;
 mod static_tier;
+mod wanted;
 mod watcher;
 
 pub use approach::viewpoints;

@@ -85,7 +85,8 @@ impl Executive<'_> {
             let here = self.pilot.pose().position();
             let Some(pose) = better_view(self.pilot.grid(), self.pilot.rooms(), here, at) else { continue };
             let spoken = name.replace('_', " ");
-            self.pilot.because(format!("something like a {spoken} was seen at ({:.1}, {:.1}); going there", at.x, at.y));
+            self.pilot
+                .because(format!("something like a {spoken} was seen at ({:.1}, {:.1}); going there", at.x, at.y));
             match self.pilot.go_to_pose(pose) {
                 Err(Halt::Blocked(_)) => continue,
                 other => other?,
@@ -105,7 +106,8 @@ impl Executive<'_> {
         for lookout in lookouts(self.pilot.grid(), room, arrived.position()) {
             let place = Place { room, arrived };
             let ranked = rank(&self.pilot.beliefs, &task.wanted, place, self.lexicon);
-            let is_plausible = |best: &Ranked| best.score >= if best.is_doubtful() { PLAUSIBLE_DOUBTFUL } else { PLAUSIBLE };
+            let is_plausible =
+                |best: &Ranked| best.score >= if best.is_doubtful() { PLAUSIBLE_DOUBTFUL } else { PLAUSIBLE };
             let missing = self.missing_reference(&task.wanted);
             if ranked.first().is_some_and(is_plausible) && missing.is_none() {
                 return Ok(());

@@ -277,7 +277,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("log.mcap");
         write(&path);
-        let error = TrialLog::create(&path, false, &Camera::kinect(), BTreeMap::new()).err().expect("refused").to_string();
+        let error =
+            TrialLog::create(&path, false, &Camera::kinect(), BTreeMap::new()).err().expect("refused").to_string();
         assert!(error.contains("exists; name another file or give --force"), "{error}");
     }
 }

@@ -124,7 +124,8 @@ impl Known<'_> {
     fn rank(&self, wanted: &Wanted) -> Vec<Ranked> {
         let mut beliefs = Beliefs::default();
         for item in &self.items {
-            beliefs.take_in(&View { furniture: vec![ideal_detection(item)], objects: Vec::new() }, Vec2::repeat(f64::MAX));
+            beliefs
+                .take_in(&View { furniture: vec![ideal_detection(item)], objects: Vec::new() }, Vec2::repeat(f64::MAX));
         }
         rank(&beliefs, wanted, Place { room: &self.frame, arrived: self.arrived }, Lexicon::embedded())
     }

@@ -32,7 +32,9 @@ const STEEPEST_DEG: f64 = 60.0;
 fn check_camera(checker: &Checker, scene: &Scene) -> Result<(), WorldError> {
     let CameraMount { height_m, tilt_deg } = scene.camera.unwrap_or_default();
     checker.require((0.1..=HIGHEST_CAMERA_M).contains(&height_m), "camera", || {
-        format!("height_m {height_m} is no height of a robot's camera; give 0.1 to {HIGHEST_CAMERA_M} m above the floor")
+        format!(
+            "height_m {height_m} is no height of a robot's camera; give 0.1 to {HIGHEST_CAMERA_M} m above the floor"
+        )
     })?;
     checker.require((-STEEPEST_DEG..=STEEPEST_DEG).contains(&tilt_deg), "camera", || {
         format!("tilt_deg {tilt_deg} shows no room; give -{STEEPEST_DEG} (up) to {STEEPEST_DEG} (down) degrees")
@@ -174,7 +176,9 @@ mod tests {
     #[test]
     fn a_camera_on_the_ceiling_or_looking_at_its_own_feet_is_refused() {
         let mounted = |height_m, tilt_deg| scene_error(|s| s.camera = Some(CameraMount { height_m, tilt_deg }));
-        assert!(mounted(120.0, 15.0).contains("camera: height_m 120 is no height of a robot's camera; give 0.1 to 2 m"));
+        assert!(
+            mounted(120.0, 15.0).contains("camera: height_m 120 is no height of a robot's camera; give 0.1 to 2 m")
+        );
         assert!(mounted(1.2, 89.0).contains("camera: tilt_deg 89 shows no room"));
         assert!(mounted(f64::NAN, 15.0).contains("camera: height_m NaN"));
     }
