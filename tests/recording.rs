@@ -6,7 +6,15 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use common::{executable, pipe, run};
+use serde_json::Value;
+use spatial_fetch::behavior::Watcher;
+use spatial_fetch::frame::RgbdFrame;
+use spatial_fetch::geometry::Pose;
+use spatial_fetch::perception::Detector;
+use spatial_fetch::record::{Plan, Record};
 use spatial_fetch::recording::records;
+use spatial_fetch::trial::{Home, Perception, Settings, stream_of};
+use spatial_fetch::world::RoomMap;
 
 const SENTENCE: &str = "the mug is in the bedroom on the table next to the chairs\n";
 
@@ -46,6 +54,53 @@ fn each_line_is_one_message_byte_for_byte_and_the_same_trial_gives_the_same_file
     let first = std::fs::read(path).expect("readable");
     run("drive", &["--record", &recorded.log, "--force", "-j", "1"], &recorded.stages[2]).expect_code(0);
     assert!(std::fs::read(path).expect("readable") == first, "two files for one trial");
+}
+
+/// Sees with the camera as the robot does, and keeps what it sees.
+struct Witness {
+    detector: Detector,
+    map: RoomMap,
+    seen: Vec<Value>,
+}
+
+impl Watcher for Witness {
+    fn frame(&mut self, _time_s: f64, _believed: Pose, frame: &RgbdFrame) {
+        let view = self.detector.detect(frame, Some(&self.map));
+        self.seen.push(serde_json::to_value(view.furniture).expect("serializes"));
+    }
+}
+
+/// A trial with the camera: what the robot saw, look by look, and the log of the same trial.
+fn seen_and_recorded(folder: &Path) -> (Vec<Value>, String) {
+    let log = folder.join("seen.mcap").to_str().expect("UTF-8").to_string();
+    let planned = pipe(&["chunk", "ground", "plan"], "the fork is in the living room on the table on the right\n");
+    let record = Record::parse(&planned).expect("a record");
+    let plan: Plan = record.require("plan", "").expect("a plan");
+    let home = Home::load(None, None).expect("the apartment");
+    let settings = Settings { perception: Perception::Camera, seed: 2, ..Settings::default() };
+    let mut witness = Witness { detector: Detector::default(), map: home.map.clone(), seen: Vec::new() };
+    let stream = stream_of(&record.id().expect("an id"));
+    spatial_fetch::trial::run(&home, &plan, &settings, stream, &mut witness);
+    run("drive", &["--perception", "camera", "--seed", "2", "--record", &log], &planned).expect_code(0);
+    (witness.seen, log)
+}
+
+#[test]
+fn perceive_sees_in_the_log_what_the_robot_saw_and_one_room_when_fused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (seen, log) = seen_and_recorded(folder.path());
+    let map = "fixtures/apartment.map.json";
+    let again = run("perceive", &["--map", map, &log], "").expect_code(0).records();
+    assert!(seen.len() > 10, "{} looks", seen.len());
+    let again: Vec<&Value> = again.iter().map(|record| &record["detections"]).collect();
+    assert_eq!(again, seen.iter().collect::<Vec<_>>());
+
+    let fused = run("perceive", &["--fuse", "--map", map, &log], "").expect_code(0).records();
+    assert_eq!((fused.len(), fused[0]["frames"].as_array().map(Vec::len)), (1, Some(seen.len())));
+    let couches = fused[0]["detections"].as_array().expect("an array").iter().filter(|d| d["category"] == "couch");
+    // The couch faces away from the door at (4.5, 3).
+    let near = |d: &&Value| (d["x"].as_f64().unwrap_or(0.0) - 4.5).hypot(d["y"].as_f64().unwrap_or(0.0) - 3.0) < 0.4;
+    assert_eq!(couches.filter(near).count(), 1, "{}", fused[0]["detections"]);
 }
 
 #[test]

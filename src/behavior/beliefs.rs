@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::glimpses::Glimpses;
 use crate::geometry::{Polygon, Vec2, vec2};
 use crate::perception::{ObjectSighting, View};
 use crate::record::Detection;
@@ -37,6 +38,8 @@ pub struct Furniture {
     pub searched: bool,
     /// From where it was looked at for the object.
     pub looked_from: Vec<Vec2>,
+    /// Whether something small was seen on it again and again.
+    pub holds: bool,
     /// Whether it was gone to for no more than to see better what it is.
     pub studied: bool,
     /// What all looks together say of its category: probabilities added up, the surer looks' counting more.
@@ -58,6 +61,7 @@ impl Furniture {
             footprint,
             searched: false,
             looked_from: Vec::new(),
+            holds: false,
             studied: false,
             votes: BTreeMap::new(),
             weight: 0.0,
@@ -157,6 +161,8 @@ pub struct Beliefs {
     pub furniture: Vec<Furniture>,
     /// The latest sighting of each object, recognisable ones only.
     pub objects: Vec<ObjectSighting>,
+    /// Everything small that was seen, recognisable or not.
+    pub glimpses: Glimpses,
     /// How often each name was recognised at each place.
     told: Vec<(Vec2, BTreeMap<String, u32>)>,
     /// Points at which the sonar met something the eyes had not reported.
@@ -171,9 +177,13 @@ impl Beliefs {
             self.objects.push(sighting.clone());
             self.tell(sighting);
         }
+        view.objects.iter().for_each(|sighting| self.glimpses.add(sighting, here));
         let mut changed = false;
         for detection in &view.furniture {
             changed |= self.place(detection, here);
+        }
+        for furniture in self.furniture.iter_mut().filter(|furniture| !furniture.holds) {
+            furniture.holds = self.glimpses.steady().any(|at| furniture.footprint.contains(at));
         }
         changed
     }

@@ -12,6 +12,7 @@ mod approach;
 mod beliefs;
 mod driving;
 mod executive;
+mod glimpses;
 mod journal;
 mod localizer;
 pub mod motion;
@@ -21,6 +22,7 @@ mod relation;
 mod route;
 pub mod search;
 mod static_tier;
+mod wanted;
 mod watcher;
 
 pub use approach::viewpoints;

@@ -1,10 +1,11 @@
 //! Which furniture the words mean: candidates ranked by how well they fit the reference–direction pairs.
 
 use super::relation::{self, Place};
+pub use super::wanted::Wanted;
 use super::{Beliefs, Furniture};
 use crate::geometry::vec2;
 use crate::language::{Class, Lexicon};
-use crate::record::{Action, Direction, Frame, Plan, SearchPair};
+use crate::record::{Direction, Frame, SearchPair};
 
 /// What a reading in the first, second, third … frame counts: the likeliest is believed most.
 const FRAME_WEIGHTS: [f64; 4] = [1.0, 0.85, 0.75, 0.65];
@@ -16,6 +17,8 @@ const FLOOR: f64 = 0.05;
 const ATTRIBUTE_MISSED: f64 = 0.85;
 /// A category that the looks at a piece speak for by less than this is not considered.
 const DOUBTFUL: f64 = 0.2;
+/// How likely what holds something small is a table, of what was not taken for one.
+const HOLDING: f64 = 0.5;
 /// From here on the category is not in doubt.
 const SURE: f64 = 0.98;
 /// A pair that the best candidate fits by less than this is not fulfilled.
@@ -25,39 +28,6 @@ const SIDEWAYS_ALONE: f64 = 0.2;
 const SIDEWAYS: f64 = 0.7;
 /// Nearness of a candidate halves its preference with every so many metres.
 const NEAR_HALVES_M: f64 = 8.0;
-
-/// What is searched.
-#[derive(Clone, Debug, Default)]
-pub struct Wanted {
-    /// Noun of the target furniture; any table-like furniture when none was said.
-    pub target: Option<String>,
-    /// Colour, size, shape, as said.
-    pub attributes: Vec<String>,
-    /// "The second table", counted from 1 in the order of distance.
-    pub ordinal: Option<u32>,
-    /// The pairs, in the order spoken.
-    pub pairs: Vec<SearchPair>,
-    /// Only readings in each pair's first frame.
-    pub one_frame: bool,
-    /// By distance alone, whatever the heading.
-    pub nearest_first: bool,
-}
-
-impl Wanted {
-    /// What the plan's search asks for.
-    pub fn of_plan(plan: &Plan) -> Option<Self> {
-        plan.actions.iter().find_map(|action| match action {
-            Action::Search { target, attributes, ordinal, pairs } => Some(Self {
-                target: target.clone(),
-                attributes: attributes.clone(),
-                ordinal: *ordinal,
-                pairs: pairs.clone(),
-                ..Self::default()
-            }),
-            _ => None,
-        })
-    }
-}
 
 /// A candidate with its score and the reading behind it.
 #[derive(Clone, Debug)]
@@ -115,7 +85,9 @@ fn candidates(beliefs: &Beliefs, target: Option<&str>, lexicon: &Lexicon) -> Vec
 /// How sure the robot is that a piece is what the target's noun names.
 fn belief_in_target(furniture: &Furniture, target: Option<&str>, lexicon: &Lexicon) -> f64 {
     let class = target.and_then(|noun| lexicon.class_of(noun)).unwrap_or(Class::TableLike);
-    furniture.belief(|category| lexicon.class_of(category) == Some(class) || Some(category) == target)
+    let belief = furniture.belief(|category| lexicon.class_of(category) == Some(class) || Some(category) == target);
+    // A monitor on a table passes for a chair's back; seats hold nothing small.
+    if furniture.holds && class == Class::TableLike { 1.0 - (1.0 - belief) * (1.0 - HOLDING) } else { belief }
 }
 
 fn factors(

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use rand_chacha::ChaCha8Rng;
 
 use super::{Detector, Eyes, View};
-use crate::frame::RgbdFrame;
+use crate::frame::{RgbdFrame, steady};
 use crate::geometry::Pose;
 use crate::robot::simulated::Truth;
 use crate::world::camera::{Kinect, SolidScene};
@@ -30,7 +30,8 @@ impl SimulatedKinect {
     fn frame(&mut self, believed: Pose) -> (RgbdFrame, Vec<u16>) {
         let pose = self.truth.borrow().pose;
         let (mut frame, ids) = self.kinect.capture(&self.solids, pose, &mut self.rng);
-        frame.world_from_camera = self.kinect.camera.world_from_camera(believed);
+        // As a recording of it is read back, so that the same is seen in it.
+        frame.world_from_camera = steady(self.kinect.camera.world_from_camera(believed));
         (frame, ids)
     }
 }
@@ -94,5 +95,28 @@ impl Eyes for MaskEyes {
 
     fn frame(&self) -> Option<&RgbdFrame> {
         self.last.as_ref()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand_chacha::rand_core::SeedableRng;
+
+    use super::*;
+    use crate::geometry::vec2;
+
+    #[test]
+    fn true_masks_part_a_table_from_the_chair_beside_it() {
+        let (map, scene) = (RoomMap::apartment(), Scene::apartment());
+        // Beside the dinner table of the living room, looking along it.
+        let pose = Pose::new(2.2, 5.2, 0.6);
+        let truth = Rc::new(RefCell::new(Truth { pose, ..Truth::default() }));
+        let kinect = SimulatedKinect::new(&map, &scene, Kinect::default(), truth, ChaCha8Rng::seed_from_u64(1));
+        let view = MaskEyes::new(kinect, map, &scene).look(pose);
+        for id in ["dinner-table-1", "chair-1"] {
+            let item = scene.item(id).expect("there");
+            let near = |piece: &&crate::record::Detection| (vec2(piece.x, piece.y) - vec2(item.x, item.y)).norm() < 0.3;
+            assert_eq!(view.furniture.iter().filter(near).count(), 1, "{id}: {:?}", view.furniture);
+        }
     }
 }
