@@ -6,8 +6,8 @@ use super::route::{length, route};
 use crate::geometry::{ClearanceGrid, Pose, Vec2, vec2, wrap_angle};
 use crate::robot::{SonarReading, p3dx};
 
-/// Ticks between two looks while driving.
-const TICKS_PER_LOOK: usize = 6;
+/// Ticks between two glimpses while driving.
+const TICKS_PER_GLIMPSE: usize = 6;
 /// Where there is room for it, a way keeps this clear, metres.
 const ROOMY_M: f64 = 0.52;
 /// What a detour for room may cost, a share of the way.
@@ -147,7 +147,7 @@ impl Pilot<'_> {
                 return Ok(false);
             }
             ticks += 1;
-            if ticks % TICKS_PER_LOOK == 0 && self.look() && !self.still_clear(rest) {
+            if ticks % TICKS_PER_GLIMPSE == 0 && self.glimpse() && !self.still_clear(rest) {
                 return Ok(false);
             }
         }

@@ -5,9 +5,11 @@
 //! scene.
 
 mod eyes;
+mod frame_stream;
 mod home;
 mod judge;
 mod outputs;
+mod placing;
 mod real;
 mod recorder;
 mod run;
@@ -16,6 +18,7 @@ mod settings;
 mod stage;
 mod stream_eyes;
 
+pub use frame_stream::{Carrier, Tell};
 pub use home::Home;
 pub use judge::ideal_detection;
 pub use outputs::Outputs;

@@ -4,6 +4,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::outputs::{Outputs, file_name};
+use super::frame_stream::Tell;
 use super::recorder::Recorder;
 use super::run::rounded;
 use super::{Home, Run, Settings};
@@ -28,8 +29,7 @@ pub struct RealDriver {
     robot: Mutex<Robot>,
     stopper: Stopper,
     busy: Arc<Busy>,
-    /// Where remarks go.
-    tell: Box<dyn Fn(&str) + Send + Sync>,
+    tell: Tell,
 }
 
 /// The robot with its eyes.
@@ -79,7 +79,7 @@ impl RealDriver {
         outputs: Outputs,
         base: ArcosBase,
         eyes: Box<dyn Eyes + Send>,
-        tell: Box<dyn Fn(&str) + Send + Sync>,
+        tell: Tell,
     ) -> Self {
         tell(base.preflight());
         let stopper = base.stopper();
@@ -108,7 +108,7 @@ impl RealDriver {
             }
             None => None,
         };
-        let mut log = Log { recorder, silent: Silent, stopper: self.stopper.clone(), tell: &self.tell };
+        let mut log = Log { recorder, silent: Silent, stopper: self.stopper.clone(), tell: self.tell.as_ref() };
         let mut run = run(&self.home, plan, &self.settings, base, eyes.as_mut(), &mut log);
         log.drain(base.time_s());
         let picture = eyes.frame().map(RgbdFrame::color_png);

@@ -1,6 +1,7 @@
 //! Which robot is driven, how carefully, and through which camera; or served to others.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
@@ -11,7 +12,7 @@ use spatial_fetch::robot::arcos::line::{Address, DryLine, Line};
 use spatial_fetch::robot::arcos::parameters::Parameters;
 use spatial_fetch::robot::arcos::server::{ServeAddress, ServerSettings};
 use spatial_fetch::robot::p3dx::SonarArray;
-use spatial_fetch::trial::{Home, NoEyes, Outputs, RealDriver, Served, StreamEyes};
+use spatial_fetch::trial::{Home, NoEyes, Outputs, RealDriver, Served, StreamEyes, Tell};
 
 /// The models whose scales are known.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -124,13 +125,13 @@ impl Arguments {
         let start = map.start;
         let base = ArcosBase::connect(self.line()?, self.settings(), start)
             .map_err(|error| Failure::Failed(error.to_string()))?;
+        let tell: Tell = Arc::new(move |text: &str| reporter.remark(text));
         let eyes: Box<dyn Eyes + Send> = if self.camera.as_os_str() == "none" {
             Box::new(NoEyes)
         } else {
-            let eyes = StreamEyes::open(&self.camera, map.clone(), base.stopper());
+            let eyes = StreamEyes::open(&self.camera, map.clone(), Arc::new(base.stopper()), Arc::clone(&tell));
             Box::new(eyes.map_err(|error| Failure::Failed(format!("--camera: {error}")))?)
         };
-        let tell = Box::new(move |text: &str| reporter.remark(text));
         let driver = RealDriver::new(Home::unfurnished(map), settings, outputs, base, eyes, tell);
         let interrupter = driver.interrupter();
         on_interrupt(move || interrupter.stop());

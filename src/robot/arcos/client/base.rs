@@ -50,6 +50,8 @@ pub struct ArcosBase {
     start: Pose,
     /// When the trial began, and the metres driven before it.
     began: (Duration, f64),
+    /// When the last control period ended.
+    due: Option<Instant>,
 }
 
 /// Stops the robot from anywhere, such as a signal handler's thread, and knows how it is.
@@ -104,7 +106,7 @@ impl ArcosBase {
         let theirs = Arc::clone(&shared);
         let thread = std::thread::Builder::new().name("robot".to_string()).spawn(move || run(client, &theirs));
         let thread = thread.map_err(|error| ConnectError::Line("the robot's thread".to_string(), error))?;
-        Ok(Self { shared, thread: Some(thread), report, resume, preflight, start, began: (Duration::ZERO, 0.0) })
+        Ok(Self { shared, thread: Some(thread), report, resume, preflight, start, began: (Duration::ZERO, 0.0), due: None })
     }
 
     /// Everything to know before driving off, in one line.
@@ -131,6 +133,14 @@ impl ArcosBase {
     /// The robot's last report.
     pub fn report(&self) -> &Report {
         &self.report
+    }
+
+    /// Sleeps until the control period is over: what the program did meanwhile counts, unless it took longer than that.
+    fn sleep(&mut self, period: Duration) {
+        let now = Instant::now();
+        let due = self.due.map(|last| last + period).filter(|due| *due > now).unwrap_or(now + period);
+        std::thread::sleep(due - now);
+        self.due = Some(due);
     }
 }
 
@@ -194,7 +204,7 @@ impl MobileBase for ArcosBase {
 
     fn drive(&mut self, linear: f64, angular: f64, seconds: f64) -> Result<(), RobotError> {
         self.shared.lock().ask = Some((linear, angular));
-        std::thread::sleep(Duration::from_secs_f64(seconds.clamp(0.0, 3600.0)));
+        self.sleep(Duration::from_secs_f64(seconds.clamp(0.0, 3600.0)));
         let state = self.shared.lock();
         self.report = state.report.clone();
         if let Some(why) = &state.failed {
