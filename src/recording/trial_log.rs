@@ -57,7 +57,12 @@ impl TrialLog {
         Ok(Self { log, path: Vec::new(), flushed_s: 0.0, failed: None })
     }
 
-    /// Writes, unless a write has failed before: a trial is not broken off for its log's sake.
+    /// Whether a write has failed, as on a full disk.
+    pub fn has_failed(&self) -> bool {
+        self.failed.is_some()
+    }
+
+    /// Writes, unless a write has failed before: a simulated trial is not broken off for its log's sake.
     fn put(&mut self, write: impl FnOnce(&mut LogWriter<BufWriter<File>>) -> Result<(), LogError>) {
         if self.failed.is_none() {
             self.failed = write(&mut self.log).err();

@@ -8,6 +8,8 @@ mod eyes;
 mod frame_stream;
 mod home;
 mod judge;
+#[cfg(feature = "kinect")]
+mod kinect;
 mod outputs;
 mod placing;
 mod real;

@@ -92,6 +92,13 @@ impl StreamEyes {
         Self::new(stream, shipped_detector(map), carrier)
     }
 
+    /// Eyes behind the Kinect that is plugged into this machine, on the usual tower.
+    #[cfg(feature = "kinect")]
+    pub fn kinect(map: RoomMap, carrier: Arc<dyn Carrier>, tell: Tell) -> io::Result<Self> {
+        let stream = FrameStream::start(Arc::clone(&carrier), tell, super::kinect::stream)?;
+        Self::new(stream, shipped_detector(map), carrier)
+    }
+
     pub(super) fn new(stream: Arc<FrameStream>, detect: Detect, carrier: Arc<dyn Carrier>) -> io::Result<Self> {
         let watch = Arc::new(Watch::default());
         let (frames, theirs, sees) = (Arc::clone(&stream), Arc::clone(&watch), Arc::clone(&detect));

@@ -29,7 +29,7 @@ pub struct Arguments {
     /// sim, `serial:/dev/ttyUSB0[@38400]` or tcp:HOST:8101
     #[arg(long, value_name = "ADDRESS", default_value = "sim")]
     robot: Address,
-    /// Frames of the real robot's camera, an MCAP file, FIFO or `-`; none drives by odometry and sonar alone
+    /// Frames of the real robot's camera: an MCAP file, FIFO or `-`, or kinect; none drives by odometry and sonar alone
     #[arg(long, value_name = "FILE", default_value = "none")]
     camera: PathBuf,
     /// Fastest, m/s
@@ -126,16 +126,32 @@ impl Arguments {
         let base = ArcosBase::connect(self.line()?, self.settings(), start)
             .map_err(|error| Failure::Failed(error.to_string()))?;
         let tell: Tell = Arc::new(move |text: &str| reporter.remark(text));
-        let eyes: Box<dyn Eyes + Send> = if self.camera.as_os_str() == "none" {
-            Box::new(NoEyes)
-        } else {
-            let eyes = StreamEyes::open(&self.camera, map.clone(), Arc::new(base.stopper()), Arc::clone(&tell));
-            Box::new(eyes.map_err(|error| Failure::Failed(format!("--camera: {error}")))?)
-        };
+        let eyes = self.eyes(&map, &base, &tell)?;
         let driver = RealDriver::new(Home::unfurnished(map), settings, outputs, base, eyes, tell);
         let interrupter = driver.interrupter();
         on_interrupt(move || interrupter.stop());
         Ok(driver)
+    }
+
+    fn eyes(
+        &self,
+        map: &spatial_fetch::world::RoomMap,
+        base: &ArcosBase,
+        tell: &Tell,
+    ) -> Result<Box<dyn Eyes + Send>, Failure> {
+        let (map, carrier, tell) = (map.clone(), Arc::new(base.stopper()), Arc::clone(tell));
+        let eyes = match self.camera.to_str() {
+            Some("none") => return Ok(Box::new(NoEyes)),
+            #[cfg(feature = "kinect")]
+            Some("kinect") => StreamEyes::kinect(map, carrier, tell),
+            #[cfg(not(feature = "kinect"))]
+            Some("kinect") => {
+                let what = "--camera kinect: this build has no Kinect; build it with `--features kinect` (a file of that name is ./kinect)";
+                return Err(Failure::Usage(what.to_string()));
+            }
+            _ => StreamEyes::open(&self.camera, map, carrier, tell),
+        };
+        Ok(Box::new(eyes.map_err(|error| Failure::Failed(format!("--camera: {error}")))?))
     }
 
     fn line(&self) -> Result<Box<dyn Line + Send>, Failure> {

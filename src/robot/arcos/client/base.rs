@@ -1,5 +1,6 @@
 //! A client on a thread of its own: the robot stops in time whatever the program does.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -104,7 +105,15 @@ impl ArcosBase {
         let shared = Arc::new(Shared::default());
         *shared.lock() = State { start, report: report.clone(), ..State::default() };
         let theirs = Arc::clone(&shared);
-        let thread = std::thread::Builder::new().name("robot".to_string()).spawn(move || run(client, &theirs));
+        let thread = std::thread::Builder::new().name("robot".to_string()).spawn(move || {
+            // Whatever becomes of the thread, the client says good-bye when it is dropped, and the program hears of it.
+            if catch_unwind(AssertUnwindSafe(|| run(client, &theirs))).is_err() {
+                let mut state = theirs.lock();
+                state.failed = Some("internal error in the thread that talks to it, please report it".to_string());
+                state.ended = true;
+                theirs.changed.notify_all();
+            }
+        });
         let thread = thread.map_err(|error| ConnectError::Line("the robot's thread".to_string(), error))?;
         Ok(Self { shared, thread: Some(thread), report, resume, preflight, start, began: (Duration::ZERO, 0.0), due: None })
     }
