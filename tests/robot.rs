@@ -122,6 +122,29 @@ fn a_dry_run_prints_the_commands() {
     }
 }
 
+#[test]
+fn every_test_that_the_documentation_names_exists() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut folders = vec![root.join("src"), root.join("tests")];
+    let mut code = String::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("readable").map(|entry| entry.expect("readable").path()) {
+            match entry.extension().and_then(|extension| extension.to_str()) {
+                Some("rs") => code += &std::fs::read_to_string(&entry).expect("readable"),
+                _ if entry.is_dir() => folders.push(entry),
+                _ => {}
+            }
+        }
+    }
+    let page = include_str!("../docs/robot.md");
+    let quoted = page.split('`').skip(1).step_by(2);
+    let tests: Vec<&str> = quoted.filter(|text| text.matches('_').count() > 3 && !text.contains(' ')).collect();
+    assert!(tests.len() > 20, "{tests:?}");
+    for test in tests {
+        assert!(code.contains(&format!("fn {test}(")), "docs/robot.md names {test}, which is no test");
+    }
+}
+
 /// `cargo test --release --test robot -- --ignored --nocapture`
 #[test]
 #[ignore = "takes about a minute of real time"]

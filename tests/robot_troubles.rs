@@ -80,7 +80,7 @@ fn a_disk_that_fills_up_in_mid_drive_stops_the_robot_and_is_said() {
     let ended = child.wait_with_output().expect("ends");
     let said = String::from_utf8(ended.stderr).expect("UTF-8");
     assert_eq!(ended.status.code(), Some(1), "{said}");
-    assert!(said.contains("File too large") || said.contains("disk is full"), "{said}");
+    assert!(said.contains("trial.mcap: ") && said.contains("too large"), "{said}");
     expect_good_bye(&served);
     expect_broken_off(&served);
     let driven = served.truth()["distance_m"].as_f64().expect("a distance");
@@ -90,11 +90,11 @@ fn a_disk_that_fills_up_in_mid_drive_stops_the_robot_and_is_said() {
 #[test]
 fn a_full_disk_behind_the_record_or_the_output_leaves_a_robot_that_stands_with_its_motors_off() {
     let plan = r#"{"id":"1","plan":{"map":"apartment","room":"hallway","actions":[{"do":"enter","room":"hallway"},{"do":"move","direction":"left"}],"problems":[]}}"#;
-    for (option, part) in [("--record", "/dev/full"), ("--output", "/dev/full: the disk is full")] {
+    for option in ["--record", "--output"] {
         let served = Served::start(&[]);
         let arguments = ["--robot", &served.address(), "--map", &served.map(), option, "/dev/full"];
         let ran = run("drive", &arguments, plan).expect_code(1);
-        assert!(ran.err.contains(part), "{}", ran.err);
+        assert!(ran.err.contains("/dev/full: the disk is full; free space"), "{}", ran.err);
         expect_good_bye(&served);
     }
 }
@@ -283,6 +283,11 @@ impl<F: FnMut()> Eyes for Trap<F> {
         (self.0)();
         None
     }
+
+    /// The moves are enough for these tests: nothing is looked for.
+    fn can_see(&self) -> bool {
+        false
+    }
 }
 
 #[test]
@@ -364,7 +369,7 @@ fn a_control_loop_that_hangs_in_mid_drive_leaves_a_robot_that_stands() {
     });
     assert!(said.lock().expect("whole").contains("no new velocity for 300 ms: stopping"));
     assert!(!served.log().contains("watchdog"), "{}", served.log());
-    assert!(outcome.contains(r#""outcome":"arrived""#) || outcome.contains("not_found"), "{outcome}");
+    assert!(outcome.contains(r#""outcome":"arrived""#), "{outcome}");
 }
 
 #[test]

@@ -27,6 +27,7 @@ const PATH_SPACING_M: f64 = 0.1;
 
 /// Writes one trial while it goes on: what has been flushed can be read whatever happens next.
 pub struct TrialLog {
+    name: String,
     log: LogWriter<BufWriter<File>>,
     path: Vec<Pose>,
     flushed_s: f64,
@@ -43,7 +44,12 @@ struct Velocity {
 impl TrialLog {
     /// Begins a log at `path`; refuses a file that exists unless `force`. `about` says how the trial is run.
     pub fn create(path: &Path, force: bool, about: BTreeMap<String, String>) -> Result<Self, LogError> {
-        let file = open(path, force)?;
+        let name = path.display().to_string();
+        let log = Self::begin(open(path, force)?, about).map_err(|error| error.named(&name))?;
+        Ok(Self { name, log, path: Vec::new(), flushed_s: 0.0, failed: None })
+    }
+
+    fn begin(file: File, about: BTreeMap<String, String>) -> Result<LogWriter<BufWriter<File>>, LogError> {
         let mut log = LogWriter::new(BufWriter::new(file), Some(Compression::Zstd))?;
         log.metadata("spatial_fetch", about)?;
         let link = |parent: &str, child: &str, pose| transform(0, parent, child, pose);
@@ -54,7 +60,7 @@ impl TrialLog {
         ];
         log.message("/tf_static", 0, &FrameTransforms { transforms: fixed })?;
         log.flush()?;
-        Ok(Self { log, path: Vec::new(), flushed_s: 0.0, failed: None })
+        Ok(log)
     }
 
     /// Whether a write has failed, as on a full disk.
@@ -172,10 +178,11 @@ impl TrialLog {
     /// Ends the log; tells of any write that failed on the way.
     pub fn finish(mut self, time_s: f64) -> Result<(), LogError> {
         self.flush(time_s);
-        if let Some(error) = self.failed {
-            return Err(error);
-        }
-        self.log.finish().map(|_| ())
+        let finished = match self.failed {
+            Some(error) => Err(error),
+            None => self.log.finish().map(|_| ()),
+        };
+        finished.map_err(|error| error.named(&self.name))
     }
 }
 
