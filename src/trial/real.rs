@@ -3,8 +3,8 @@
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::outputs::{Outputs, file_name};
 use super::frame_stream::Tell;
+use super::outputs::{Outputs, file_name};
 use super::recorder::Recorder;
 use super::run::rounded;
 use super::{Home, Run, Settings};
@@ -84,7 +84,16 @@ impl RealDriver {
     ) -> Self {
         tell(base.preflight());
         let stopper = base.stopper();
-        Self { home, settings, outputs, robot: Mutex::new(Robot { base, eyes }), stopper, busy: Arc::default(), tell, unheard: Box::new(|| false) }
+        Self {
+            home,
+            settings,
+            outputs,
+            robot: Mutex::new(Robot { base, eyes }),
+            stopper,
+            busy: Arc::default(),
+            tell,
+            unheard: Box::new(|| false),
+        }
     }
 
     /// A trial also ends when `unheard` says, at any control period, that nobody reads what comes out of it.

@@ -1,7 +1,7 @@
 //! A Kinect (the first model) as a stream of frames, through Debian's libfreenect.
 //!
-//! No kept Rust binding of libfreenect is sound, and ours would not be safe
-//! code: the library's own recorder, `fakenect-record` of the package
+//! No kept Rust binding of libfreenect is sound, and one of our own could not
+//! be safe code: the library's own recorder, `fakenect-record` of the package
 //! libfreenect-bin, is run as a process of its own, and the pictures it writes
 //! are read and deleted. Under `fakenect FOLDER drive …` it replays a recording
 //! instead: nothing here knows the difference.

@@ -74,7 +74,8 @@ mod tests {
         let frame = registered(&depth, &color, [[0.0; 4]; 4]);
         let expected = ((metres(800).expect("something") + DEPTH_TO_COLOR[2]) * 1000.0).round() as u16;
         let middle = (100..380).flat_map(|row| (100..540).map(move |column| row * WIDTH + column));
-        let (seen, all) = middle.fold((0, 0), |(seen, all), at| (seen + usize::from(frame.depth[at] == expected), all + 1));
+        let (seen, all) =
+            middle.fold((0, 0), |(seen, all), at| (seen + usize::from(frame.depth[at] == expected), all + 1));
         // The colour camera sees a wider field: no pixel stays empty.
         assert_eq!(seen, all);
         assert_eq!(frame.color[5], [10, 20, 30]);

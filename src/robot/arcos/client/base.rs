@@ -115,7 +115,16 @@ impl ArcosBase {
             }
         });
         let thread = thread.map_err(|error| ConnectError::Line("the robot's thread".to_string(), error))?;
-        Ok(Self { shared, thread: Some(thread), report, resume, preflight, start, began: (Duration::ZERO, 0.0), due: None })
+        Ok(Self {
+            shared,
+            thread: Some(thread),
+            report,
+            resume,
+            preflight,
+            start,
+            began: (Duration::ZERO, 0.0),
+            due: None,
+        })
     }
 
     /// Everything to know before driving off, in one line.

@@ -196,7 +196,9 @@ mod tests {
     fn begins_packet_to_beyond(bytes: &[u8], least: usize) -> bool {
         let whole = |count: &u8| bytes.get(3..usize::from(*count) + 3).filter(|_| *count >= 3);
         let [0xFA, 0xFB, count, ..] = bytes else { return false };
-        let Some((body, sum)) = whole(count).and_then(|rest| rest.split_at_checked(rest.len() - 2)) else { return false };
+        let Some((body, sum)) = whole(count).and_then(|rest| rest.split_at_checked(rest.len() - 2)) else {
+            return false;
+        };
         checksum(body).to_be_bytes() == sum && bytes.len().min(usize::from(*count) + 3) > least
     }
 
