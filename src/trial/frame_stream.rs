@@ -20,6 +20,9 @@ const SAME_HEADING_RAD: f64 = 0.03;
 /// Where remarks go.
 pub type Tell = Arc<dyn Fn(&str) + Send + Sync>;
 
+/// Takes a frame, or none; says whether more are wanted.
+pub(super) type Take<'a> = dyn FnMut(Option<TimedFrame>) -> bool + 'a;
+
 /// What carries the camera.
 pub trait Carrier: Send + Sync {
     /// Where its odometry believes it is, in the frame of the map.
@@ -81,16 +84,22 @@ pub(super) struct FrameStream {
 }
 
 impl FrameStream {
-    /// Takes in what `frames` hands over, on a thread of its own, until it or the stream ends.
+    /// Takes in what `frames` hands over, on a thread of its own, until it ends.
+    ///
+    /// It hands over frames, or none to ask whether more are wanted, and shall end when they are not.
     pub fn start(
         carrier: Arc<dyn Carrier>,
         tell: Tell,
-        frames: impl FnOnce(&mut dyn FnMut(TimedFrame) -> bool) -> Result<(), String> + Send + 'static,
+        frames: impl FnOnce(&mut Take) -> Result<(), String> + Send + 'static,
     ) -> io::Result<Arc<Self>> {
         let stream = Arc::new(Self::default());
         let theirs = Arc::clone(&stream);
         std::thread::Builder::new().name("camera".to_string()).spawn(move || {
-            let ended = frames(&mut |frame| theirs.take(frame, carrier.pose(), &tell));
+            let mut take = |frame: Option<TimedFrame>| match frame {
+                Some(frame) => theirs.take(frame, carrier.pose(), &tell),
+                None => !theirs.lock().closed,
+            };
+            let ended = frames(&mut take);
             let closed = {
                 let mut newest = theirs.lock();
                 newest.ended = true;
@@ -120,8 +129,9 @@ impl FrameStream {
         self.changed.wait_timeout(newest, most).unwrap_or_else(PoisonError::into_inner).0
     }
 
-    /// Wakes everyone who waits.
-    pub fn wake(&self) {
+    /// Wants no more frames.
+    pub fn close(&self) {
+        self.lock().closed = true;
         self.changed.notify_all();
     }
 
@@ -153,14 +163,14 @@ impl FrameStream {
     }
 }
 
-fn read(path: &Path, take: &mut dyn FnMut(TimedFrame) -> bool) -> Result<(), String> {
+fn read(path: &Path, take: &mut Take) -> Result<(), String> {
     let name = path.display().to_string();
     let named = |error: String| format!("{name}: {error}");
     let source = open(path).map_err(|error| named(error.to_string()))?;
     let frames = FrameReader::new(source, &name, FrameOptions::default()).map_err(|error| named(error.to_string()))?;
     // What is lost on the way is one picture less.
     for frame in frames.flatten() {
-        if !take(frame) {
+        if !take(Some(frame)) {
             break;
         }
     }

@@ -99,6 +99,12 @@ impl StreamEyes {
         Self::new(stream, shipped_detector(map), carrier)
     }
 
+    /// Ends the stream from anywhere, such as a signal handler's thread, which leaves no time to drop anything.
+    pub fn closer(&self) -> impl FnOnce() + Send + 'static {
+        let stream = Arc::clone(&self.stream);
+        move || stream.close()
+    }
+
     pub(super) fn new(stream: Arc<FrameStream>, detect: Detect, carrier: Arc<dyn Carrier>) -> io::Result<Self> {
         let watch = Arc::new(Watch::default());
         let (frames, theirs, sees) = (Arc::clone(&stream), Arc::clone(&watch), Arc::clone(&detect));
@@ -195,8 +201,7 @@ impl Drop for StreamEyes {
     fn drop(&mut self) {
         self.watch.lock().closed = true;
         self.watch.changed.notify_all();
-        self.stream.lock().closed = true;
-        self.stream.wake();
+        self.stream.close();
     }
 }
 
@@ -257,7 +262,7 @@ mod tests {
         let (frames, coming) = channel();
         let carrier: Arc<dyn Carrier> = carrier.clone();
         let stream = FrameStream::start(Arc::clone(&carrier), Arc::new(|_| {}), move |take| {
-            while coming.recv().is_ok_and(&mut *take) {}
+            while coming.recv().is_ok_and(|frame| take(Some(frame))) {}
             Ok(())
         });
         (StreamEyes::new(stream.expect("a thread"), detect, carrier).expect("a thread"), frames)

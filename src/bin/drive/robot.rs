@@ -151,7 +151,9 @@ impl Arguments {
             }
             _ => StreamEyes::open(&self.camera, map, carrier, tell),
         };
-        Ok(Box::new(eyes.map_err(|error| Failure::Failed(format!("--camera: {error}")))?))
+        let eyes = eyes.map_err(|error| Failure::Failed(format!("--camera: {error}")))?;
+        on_interrupt(eyes.closer());
+        Ok(Box::new(eyes))
     }
 
     fn line(&self) -> Result<Box<dyn Line + Send>, Failure> {

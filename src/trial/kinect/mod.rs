@@ -15,6 +15,7 @@ use std::time::Duration;
 
 use raw::{HEIGHT, WIDTH, registered};
 
+use super::frame_stream::Take;
 use crate::geometry::Pose;
 use crate::recording::TimedFrame;
 use crate::world::camera::Camera;
@@ -113,7 +114,7 @@ fn pictures(folder: &Path) -> Vec<Picture> {
 }
 
 /// Hands over frames until `take` wants no more, or the Kinect gives no more.
-pub(super) fn stream(take: &mut dyn FnMut(TimedFrame) -> bool) -> Result<(), String> {
+pub(super) fn stream(take: &mut Take) -> Result<(), String> {
     let mut recorder = Recorder::start()?;
     let on_tower = Camera::kinect().world_from_camera(Pose::default());
     loop {
@@ -133,7 +134,7 @@ pub(super) fn stream(take: &mut dyn FnMut(TimedFrame) -> bool) -> Result<(), Str
             // One that cannot be deleted is looked at once more.
             let _ = std::fs::remove_file(&old.path);
         }
-        if frame.is_some_and(|(_, frame)| !take(frame)) {
+        if !take(frame.map(|(_, frame)| frame)) {
             return Ok(());
         }
         if let Some(why) = ended {

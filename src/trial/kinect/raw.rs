@@ -58,12 +58,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_sensors_numbers_are_metres() {
-        // OpenKinect's table: 600 is 0.70 m, 800 is 1.14 m, 1000 is 3.1 m.
-        for (raw, expected, within) in [(600, 0.67, 0.05), (800, 1.15, 0.05), (1000, 3.7, 0.7)] {
-            let found = metres(raw).expect("something");
-            assert!((found - expected).abs() < within, "{raw}: {found}");
-        }
+    fn the_sensors_numbers_become_metres_that_grow_with_them_and_end_with_its_range() {
+        let seen: Vec<f64> = (0..=NOTHING).filter_map(metres).collect();
+        assert!(seen.windows(2).all(|pair| pair[0] < pair[1]) && seen.len() > 1000);
+        // A step of one is 2 mm near by and some 5 cm at four metres, as the sensor's resolution is described.
+        let step = |at: f64| seen.windows(2).find(|pair| pair[1] > at).map(|pair| pair[1] - pair[0]).expect("in range");
+        assert!(step(0.8) < 0.003 && (0.03..0.06).contains(&step(4.0)), "{} {}", step(0.8), step(4.0));
         assert_eq!(metres(NOTHING), None);
     }
 
