@@ -6,7 +6,9 @@ use std::time::Duration;
 
 use spatial_fetch::geometry::Pose;
 use spatial_fetch::robot::arcos::client::{Client, ConnectError, Settings};
-use spatial_fetch::robot::arcos::codec::{Command, Decoder, Packet, SIP_STOPPED, number};
+use spatial_fetch::robot::arcos::codec::{
+    Command, Decoder, ENCODER_PACKET, GYRO_PACKET, Gyro, IO_PACKET, Packet, SIP_STOPPED, number,
+};
 use spatial_fetch::robot::arcos::line::{Line, MemoryLine};
 use spatial_fetch::robot::arcos::parameters::Parameters;
 use spatial_fetch::robot::arcos::server::{Server, ServerSettings};
@@ -304,6 +306,55 @@ fn move_heading_and_wheel_commands_do_what_the_manual_says() {
     answers(&robot, &mut line, &[Command::bare(number::STOP)]);
     let_pass(&robot, &mut line, 2.0);
     assert_eq!(robot.borrow().velocity(), (0.0, 0.0));
+}
+
+#[test]
+fn an_emergency_stop_overrides_the_deceleration_and_hears_nothing_until_the_robot_stands() {
+    let robot = robot();
+    let mut line = opened(&robot);
+    let drive = [Command::int(number::ENABLE, 1), Command::int(number::SETA, -100), Command::int(number::VEL, 300)];
+    answers(&robot, &mut line, &drive);
+    let_pass(&robot, &mut line, 2.0);
+    let (speed, before) = (robot.borrow().velocity().0, robot.borrow().truth().borrow().pose.x);
+    assert!((speed - 0.3).abs() < 0.01, "{speed}");
+    answers(&robot, &mut line, &[Command::bare(number::E_STOP), Command::int(number::VEL, 300)]);
+    let gone = robot.borrow().truth().borrow().pose.x - before;
+    assert!(robot.borrow().velocity() == (0.0, 0.0) && gone < 0.03, "{gone} m, at 0.1 m/s² it would be 0.45");
+    answers(&robot, &mut line, &[Command::int(number::VEL, 300)]);
+    let_pass(&robot, &mut line, 1.0);
+    assert!(robot.borrow().velocity().0 > 0.2, "standing, it obeys again");
+}
+
+/// The types of the packets that come in a second.
+fn kinds(robot: &Robot, line: &mut MemoryLine, commands: &[Command]) -> Vec<u8> {
+    let packets = [answers(robot, line, commands), answers(robot, line, &[Command::bare(number::PULSE)])].concat();
+    packets.iter().map(|packet| packet.kind).collect()
+}
+
+#[test]
+fn encoders_and_inputs_come_once_or_from_now_on_as_asked() {
+    for (command, kind) in [(number::ENCODER, ENCODER_PACKET), (number::IOREQUEST, IO_PACKET)] {
+        let robot = robot();
+        let mut line = opened(&robot);
+        let count = |kinds: Vec<u8>| kinds.into_iter().filter(|other| *other == kind).count();
+        assert_eq!(count(kinds(&robot, &mut line, &[Command::int(command, 1)])), 1);
+        assert!(count(kinds(&robot, &mut line, &[Command::int(command, 2)])) >= 8);
+        assert_eq!(count(kinds(&robot, &mut line, &[Command::int(command, 0)])), 0);
+    }
+}
+
+#[test]
+fn the_gyro_goes_before_each_report_and_shows_the_turn() {
+    let robot = robot();
+    let mut line = opened(&robot);
+    let turn = [Command::int(number::ENABLE, 1), Command::int(number::RVEL, 40), Command::int(number::GYRO, 1)];
+    answers(&robot, &mut line, &turn);
+    let_pass(&robot, &mut line, 1.0);
+    let packets = answers(&robot, &mut line, &[Command::bare(number::PULSE)]);
+    assert!(packets.chunks_exact(2).all(|pair| (pair[0].kind, pair[1].kind) == (GYRO_PACKET, SIP_STOPPED + 1)));
+    let gyro = Gyro::from_packet(&packets[0]).expect("a gyro packet");
+    let mean = gyro.samples.iter().map(|(rate, _)| f64::from(*rate) - 512.0).sum::<f64>() / gyro.samples.len() as f64;
+    assert!((mean * 1.626 - 40.0).abs() < 1.0, "{mean}");
 }
 
 #[test]

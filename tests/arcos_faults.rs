@@ -146,45 +146,51 @@ fn a_thousand_bad_lines_neither_keep_the_robot_moving_nor_lose_its_place() {
     );
 }
 
-/// In real time, over a pseudo-terminal: `cargo test --release --test arcos_faults -- --ignored --nocapture`.
+/// In real time, over pseudo-terminals: `cargo test --release --test arcos_faults -- --ignored --nocapture`.
 #[test]
-#[ignore = "takes some minutes of real time"]
+#[ignore = "takes a quarter of a minute of real time"]
 fn twenty_bad_pseudo_terminals_do_no_more_harm() {
-    for seed in 0..20 {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("p3dx");
-        let quit = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
-        let (theirs, at) = (quit.clone(), path.clone());
-        let served = std::thread::spawn(move || serve_on(&at, &theirs));
-        while !path.exists() {
-            std::thread::sleep(TURN);
+    std::thread::scope(|scope| {
+        for seed in 0..20 {
+            scope.spawn(move || over_a_pseudo_terminal(seed));
         }
-        let inner = SerialLine::open(&path, Some(38400)).expect("opens");
-        let line = FaultyLine::new(inner, seed, Rates { byte: 20, exchange: 60, death: 3 });
-        let mut client = Client::connect(line, settings()).expect("connects");
-        client.line().armed = true;
-        for _ in 0..4 {
-            for _ in 0..10 {
-                let _ = client.drive(0.25, 0.3, 0.1);
-            }
-            for _ in 0..50 {
-                let _ = client.turn(TURN);
-            }
+    });
+}
+
+fn over_a_pseudo_terminal(seed: u64) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("p3dx");
+    let quit = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
+    let (theirs, at) = (quit.clone(), path.clone());
+    let served = std::thread::spawn(move || serve_on(&at, &theirs));
+    while !path.exists() {
+        std::thread::sleep(TURN);
+    }
+    let inner = SerialLine::open(&path, Some(38400)).expect("opens");
+    let line = FaultyLine::new(inner, seed, Rates { byte: 20, exchange: 60, death: 3 });
+    let mut client = Client::connect(line, settings()).expect("connects");
+    client.line().armed = true;
+    for _ in 0..4 {
+        for _ in 0..10 {
+            let _ = client.drive(0.25, 0.3, 0.1);
         }
-        client.line().armed = false;
-        for _ in 0..200 {
+        for _ in 0..50 {
             let _ = client.turn(TURN);
         }
-        let believed = client.pose();
-        let log: String = client.take_events().into_iter().map(|event| event.text + "\n").collect();
-        drop(client);
-        quit.store(true, std::sync::atomic::Ordering::Relaxed);
-        let (truth, driven, idle) = served.join().expect("served");
-        let off = (truth.position() - believed.position()).norm();
-        println!("seed {seed}: {off:.4} m off after {driven:.2} m, longest motion without a command {idle:?}");
-        assert!(off <= 0.01 * driven + 0.01, "seed {seed}: {off} m\n{log}");
-        assert!(idle <= STOPS_WITHIN, "seed {seed}: {idle:?}\n{log}");
     }
+    client.line().armed = false;
+    for _ in 0..200 {
+        let _ = client.turn(TURN);
+    }
+    let believed = client.pose();
+    let log: String = client.take_events().into_iter().map(|event| event.text + "\n").collect();
+    drop(client);
+    quit.store(true, std::sync::atomic::Ordering::Relaxed);
+    let (truth, driven, idle) = served.join().expect("served");
+    let off = (truth.position() - believed.position()).norm();
+    println!("seed {seed}: {off:.4} m off after {driven:.2} m, longest motion without a command {idle:?}");
+    assert!(off <= 0.01 * driven + 0.01, "seed {seed}: {off} m\n{log}");
+    assert!(idle <= STOPS_WITHIN, "seed {seed}: {idle:?}\n{log}");
 }
 
 /// Serves until told to quit; the truth, and the longest the robot was driven without hearing anything.

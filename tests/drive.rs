@@ -50,6 +50,14 @@ fn an_object_that_is_not_there_is_not_found_and_the_record_says_why() {
 }
 
 #[test]
+fn to_enter_the_room_it_stands_in_the_robot_need_not_move() {
+    let plan = r#"{"id":"1","plan":{"map":"apartment","room":"hallway","actions":[{"do":"enter","room":"hallway"},{"do":"move","direction":"front","amount":{"meters":0.5}}],"problems":[]}}"#;
+    let trial = run("drive", &[], plan).expect_code(0).records().remove(0)["trial"].take();
+    assert_ne!(trial["outcome"], "blocked", "{trial}");
+    assert_eq!((&trial["actions"][0]["why"], &trial["actions"][0]["end_s"]), (&"already there".into(), &0.0.into()));
+}
+
+#[test]
 fn every_action_says_why() {
     let ran = run(
         "drive",

@@ -2,126 +2,15 @@
 
 mod common;
 
-use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+#[path = "common/served.rs"]
+mod served;
 
-use common::{executable, pipe, run};
-use serde_json::Value;
+use std::process::Command;
 
-/// However slow the machine, something has gone wrong after this.
-const PATIENCE: Duration = Duration::from_secs(40);
-
-/// Through the door before which the robot starts, and half a metre on.
-const AHEAD: &str = r#"{"id":"1","plan":{"map":"apartment","room":"living_room","actions":[{"do":"enter","room":"living_room"},{"do":"move","direction":"front","amount":{"meters":0.5}}],"problems":[]}}"#;
-/// Far enough to be interrupted.
-const FAR_AHEAD: &str = r#"{"id":"1","plan":{"map":"apartment","room":"living_room","actions":[{"do":"enter","room":"living_room"},{"do":"move","direction":"front","amount":{"meters":3.0}}],"problems":[]}}"#;
-
-/// A served robot, ended when dropped.
-struct Served {
-    child: Child,
-    folder: tempfile::TempDir,
-}
-
-impl Served {
-    /// Before the door of an empty room, so that no test has far to go.
-    fn start(arguments: &[&str]) -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
-        let home = home_in(folder.path());
-        let home: Vec<&str> = home.iter().map(String::as_str).collect();
-        Self::start_in(folder, &[&home, arguments].concat())
-    }
-
-    fn start_in(folder: tempfile::TempDir, arguments: &[&str]) -> Self {
-        let (pty, truth) = (folder.path().join("p3dx"), folder.path().join("truth.jsonl"));
-        let log = std::fs::File::create(folder.path().join("served.log")).expect("a log");
-        let child = Command::new(executable("drive"))
-            .arg("--serve")
-            .arg(format!("pty:{}@38400", pty.display()))
-            .arg("--truth-out")
-            .arg(&truth)
-            .args(arguments)
-            .stdin(Stdio::null())
-            .stderr(log)
-            .spawn()
-            .expect("starts");
-        let served = Self { child, folder };
-        wait_for("the pseudo-terminal", || pty.exists());
-        served
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn address(&self) -> String {
-        format!("serial:{}@38400", self.path("p3dx").display())
-    }
-
-    /// What the robot may know of its home.
-    fn map(&self) -> String {
-        self.path("home.map.json").display().to_string()
-    }
-
-    fn log(&self) -> String {
-        std::fs::read_to_string(self.path("served.log")).expect("a log")
-    }
-
-    /// The last whole line of the truth.
-    fn truth(&self) -> Value {
-        let text = std::fs::read_to_string(self.path("truth.jsonl")).unwrap_or_default();
-        let whole = text.rsplit_once('\n').map_or("", |(whole, _)| whole);
-        whole.lines().last().and_then(|line| serde_json::from_str(line).ok()).unwrap_or(Value::Null)
-    }
-
-    fn speed(&self) -> f64 {
-        self.truth()["speed"].as_f64().unwrap_or(0.0)
-    }
-}
-
-impl Drop for Served {
-    fn drop(&mut self) {
-        // It may have ended by itself.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
-/// The arguments of a home made for these tests.
-fn home_in(folder: &Path) -> Vec<String> {
-    let map = include_str!("../fixtures/apartment.map.json");
-    let start = r#"{"x": 5.0, "y": 0.0, "heading": 3.141592653589793}"#;
-    assert!(map.contains(start));
-    let map = map.replace(start, r#"{"x": 2.63, "y": 0.7, "heading": 1.5708}"#);
-    let scene = r#"{"version":1,"name":"empty","map":"apartment","furniture":[],"objects":[]}"#;
-    let (map_file, scene_file) = (folder.join("home.map.json"), folder.join("home.scene.json"));
-    std::fs::write(&map_file, map).expect("written");
-    std::fs::write(&scene_file, scene).expect("written");
-    ["--map".into(), map_file.display().to_string(), "--scene".into(), scene_file.display().to_string()].to_vec()
-}
-
-fn wait_for(what: &str, mut done: impl FnMut() -> bool) {
-    let until = Instant::now() + PATIENCE;
-    while !done() {
-        assert!(Instant::now() < until, "{what} did not come");
-        std::thread::sleep(Duration::from_millis(20));
-    }
-}
-
-fn client(served: &Served, log: &Path, plan: &str) -> Child {
-    let mut child = Command::new(executable("drive"))
-        .args(["--robot", &served.address(), "--map", &served.map(), "--record"])
-        .arg(log)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::null())
-        .stderr(std::fs::File::create(served.path("client.log")).expect("a log"))
-        .spawn()
-        .expect("starts");
-    let mut stdin = child.stdin.take().expect("piped");
-    writeln!(stdin, "{plan}").expect("written");
-    child
-}
+use common::{pipe, run};
+use served::{AHEAD, FAR_AHEAD, Served, client, home_in, wait_for};
+use spatial_fetch::geometry::vec2;
+use spatial_fetch::world::Scene;
 
 #[test]
 fn a_dynamic_instruction_over_a_pseudo_terminal_ends_arrived_where_the_robot_believes_to_be() {
@@ -233,9 +122,32 @@ fn a_dry_run_prints_the_commands() {
     }
 }
 
+#[test]
+fn every_test_that_the_documentation_names_exists() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut folders = vec![root.join("src"), root.join("tests")];
+    let mut code = String::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("readable").map(|entry| entry.expect("readable").path()) {
+            match entry.extension().and_then(|extension| extension.to_str()) {
+                Some("rs") => code += &std::fs::read_to_string(&entry).expect("readable"),
+                _ if entry.is_dir() => folders.push(entry),
+                _ => {}
+            }
+        }
+    }
+    let page = include_str!("../docs/robot.md");
+    let quoted = page.split('`').skip(1).step_by(2);
+    let tests: Vec<&str> = quoted.filter(|text| text.matches('_').count() > 3 && !text.contains(' ')).collect();
+    assert!(tests.len() > 20, "{tests:?}");
+    for test in tests {
+        assert!(code.contains(&format!("fn {test}(")), "docs/robot.md names {test}, which is no test");
+    }
+}
+
 /// `cargo test --release --test robot -- --ignored --nocapture`
 #[test]
-#[ignore = "takes about two minutes of real time"]
+#[ignore = "takes about a minute of real time"]
 fn a_whole_fetch_trial_over_a_pseudo_terminal_with_its_camera_through_a_fifo() {
     let folder = tempfile::tempdir().expect("a folder");
     let fifo = folder.path().join("camera.mcap");
@@ -243,7 +155,24 @@ fn a_whole_fetch_trial_over_a_pseudo_terminal_with_its_camera_through_a_fifo() {
     let fifo = fifo.to_str().expect("UTF-8");
     let served = Served::start_in(tempfile::tempdir().expect("a folder"), &["--camera-out", fifo]);
     let plan = pipe(&["chunk", "ground", "plan"], "the mug is in the bedroom on the table next to the chairs\n");
-    let ran = run("drive", &["--robot", &served.address(), "--camera", fifo, "--format", "text"], &plan);
-    println!("{}\n{}\n{}", ran.out, ran.err, served.truth());
-    assert!(ran.out.contains("found:"), "{}", ran.out);
+    let ran = run("drive", &["--robot", &served.address(), "--camera", fifo, "--no-localization"], &plan);
+    let (ran, truth) = (ran.expect_code(0), served.truth());
+    let trial = ran.records().remove(0)["trial"].take();
+    let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+    let sips = number(&truth["sips"]) / number(&truth["t"]);
+    println!("{}\n{}\n{truth}\n{sips:.2} packets a second; {}", trial["why"], trial["final_pose"], ran.err);
+    assert_eq!((&trial["outcome"], &truth["collisions"]), (&"found".into(), &0.into()), "{trial} {}", ran.err);
+    let in_process = run("drive", &["--perception", "camera", "--noise", "off"], &plan).expect_code(0);
+    let in_process = in_process.records().remove(0)["trial"].take();
+    let place = vec2(number(&truth["x"]), number(&truth["y"]));
+    let scene = Scene::apartment();
+    let distance = |item: &&spatial_fetch::world::Item| item.footprint().distance_to(place);
+    let tables = scene.furniture.iter().filter(|item| item.category.contains("table"));
+    let reached = tables.min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("tables");
+    assert_eq!(reached.id, in_process["target_id"], "{trial}");
+    // Wheels without slip: what the odometry believes is true but for the rounding of the protocol.
+    for (key, most) in [("x", 0.02), ("y", 0.02), ("heading", 0.0175)] {
+        let off = (number(&trial["final_pose"][key]) - number(&truth[key])).abs();
+        assert!(off < most, "{key}: {trial} against {truth}");
+    }
 }

@@ -3,11 +3,11 @@
 use super::beliefs::Furniture;
 use super::pilot::{Halt, PLAIN_VIEW_M, Pilot, SWING_M, TICK_S};
 use super::route::{length, route};
-use crate::geometry::{ClearanceGrid, Pose, Vec2, vec2, wrap_angle};
+use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, distance_to_segment, vec2, wrap_angle};
 use crate::robot::{SonarReading, p3dx};
 
-/// Ticks between two looks while driving.
-const TICKS_PER_LOOK: usize = 6;
+/// Ticks between two glimpses while driving.
+const TICKS_PER_GLIMPSE: usize = 6;
 /// Where there is room for it, a way keeps this clear, metres.
 const ROOMY_M: f64 = 0.52;
 /// What a detour for room may cost, a share of the way.
@@ -37,6 +37,8 @@ const SONAR_AGE_S: f64 = 0.32;
 const TURNING_M: f64 = p3dx::SWING_M + 0.03;
 /// How far the robot backs off from what it touched, metres.
 const BACK_OFF_M: f64 = 0.25;
+/// This far past its outline a room has been entered, metres.
+const WELL_INSIDE_M: f64 = 0.3;
 /// How often a blocked way is planned anew without getting on, and in all; and how often a held robot is freed.
 const MOST_REPLANS: usize = 8;
 const MOST_REPLANS_IN_ALL: usize = 40;
@@ -137,6 +139,18 @@ impl Pilot<'_> {
         Ok(())
     }
 
+    /// Drives into a room that no door leads into, such as a passage: to the nearest place where it can turn.
+    pub fn go_into(&mut self, outline: &Polygon, name: &str) -> Result<(), Halt> {
+        let here = self.pose().position();
+        let off = |point: &Vec2| (point - here).norm();
+        let inside = free_inside(&self.grid, outline).min_by(|a, b| off(a).total_cmp(&off(b)));
+        let Some(goal) = inside else { return Err(Halt::Blocked(format!("the {name} has no room for the robot"))) };
+        self.because(format!("no door leads into the {name}; it is entered at ({:.1}, {:.1})", goal.x, goal.y));
+        self.go_to(goal)?;
+        self.look();
+        Ok(())
+    }
+
     /// The roomy way, unless it leads elsewhere or far about; when what the sonars met closes every way, without that.
     fn way_to(&mut self, goal: Vec2) -> Option<Vec<Vec2>> {
         let here = self.pose().position();
@@ -192,7 +206,7 @@ impl Pilot<'_> {
                 return Ok(false);
             }
             ticks += 1;
-            if ticks % TICKS_PER_LOOK == 0 && self.look() && !self.still_clear(rest) {
+            if ticks % TICKS_PER_GLIMPSE == 0 && self.glimpse() && !self.still_clear(rest) {
                 return Ok(false);
             }
         }
@@ -301,6 +315,16 @@ impl Pilot<'_> {
     }
 }
 
+/// The places well inside an outline where the robot can turn.
+fn free_inside<'a>(grid: &'a ClearanceGrid, outline: &'a Polygon) -> impl Iterator<Item = Vec2> + 'a {
+    let (low, high) = outline.bounds();
+    let (from, to) = (grid.cell(low), grid.cell(high));
+    let cells = (from.0..=to.0).flat_map(move |x| (from.1..=to.1).map(move |y| (x, y)));
+    cells.filter(|&cell| grid.clearance(cell) >= SWING_M).map(|cell| grid.centre(cell)).filter(|&point| {
+        outline.contains(point) && outline.edges().all(|(a, b)| distance_to_segment(point, a, b) >= WELL_INSIDE_M)
+    })
+}
+
 /// Where a reading's echo is, in the robot's frame, metres.
 fn heard_at(reading: &SonarReading) -> Vec2 {
     reading.mount + vec2(reading.bearing.cos(), reading.bearing.sin()) * reading.range_m
@@ -340,6 +364,17 @@ mod tests {
         let (result, end, collisions) = blindfold(&Scene::apartment(), Pose::new(5.0, 1.9, 1.57), goal);
         assert_eq!((result, collisions), (Ok(()), 0));
         assert!(end.distance_to(goal) < 0.3, "{end:?}");
+    }
+
+    #[test]
+    fn a_passage_without_a_door_of_its_own_is_entered_all_the_same() {
+        let map = RoomMap::apartment();
+        let mut base = SimulatedBase::new(Obstacles::new(&map, &Scene::apartment()), Pose::new(2.6, 3.0, 1.57));
+        let (mut eyes, mut watcher) = (Shut, Silent);
+        let mut pilot = Pilot::new(&map, &mut base, &mut eyes, &mut watcher, 300.0, false);
+        let hallway = map.room("hallway").expect("a hallway").polygon();
+        assert_eq!(pilot.go_into(&hallway, "hallway"), Ok(()));
+        assert!(hallway.contains(pilot.pose().position()), "{:?}", pilot.pose());
     }
 
     #[test]

@@ -12,7 +12,7 @@ use crate::language::Lexicon;
 use crate::perception::Eyes;
 use crate::record::{Action, Amount, Outcome, Plan};
 use crate::robot::MobileBase;
-use crate::world::RoomMap;
+use crate::world::{Room, RoomMap};
 
 /// Half of the turn in which the robot looks for its target.
 pub(super) const SWEEP_RAD: f64 = 2.0 * PI / 3.0;
@@ -170,21 +170,19 @@ impl<'a> Executive<'a> {
 
     fn enter(&mut self, room: &str) -> Result<(), Halt> {
         self.pilot.begin("enter");
-        let Some(entry) = self.map.entry_pose(room) else {
-            return Err(Halt::Blocked(format!("the map has no way into the room `{room}`")));
+        let name = room.replace('_', " ");
+        let Some(outline) = self.map.room(room).map(Room::polygon) else {
+            return Err(Halt::Blocked(format!("the map has no room `{room}`")));
         };
-        if self.map.room(room).is_some_and(|room| room.polygon().contains(self.pilot.pose().position())) {
+        if outline.contains(self.pilot.pose().position()) {
             self.pilot.because("already there");
-        } else {
-            self.pilot.because(format!(
-                "the {} is entered at ({:.1}, {:.1})",
-                room.replace('_', " "),
-                entry.x,
-                entry.y
-            ));
+        } else if let Some(entry) = self.map.entry_pose(room) {
+            self.pilot.because(format!("the {name} is entered at ({:.1}, {:.1})", entry.x, entry.y));
             self.pilot.go_to_pose(entry)?;
+        } else {
+            self.pilot.go_into(&outline, &name)?;
         }
-        self.pilot.end(&format!("in the {}", room.replace('_', " ")));
+        self.pilot.end(&format!("in the {name}"));
         Ok(())
     }
 

@@ -139,6 +139,15 @@ impl<'a> Pilot<'a> {
     /// Looks once and takes in what is seen; true when the furniture has changed.
     pub fn look(&mut self) -> bool {
         let view = self.eyes.look(self.pose());
+        self.take_in(view)
+    }
+
+    /// Takes in what was seen on the way; true when the furniture has changed.
+    pub fn glimpse(&mut self) -> bool {
+        self.eyes.glimpse(self.localizer.pose()).is_some_and(|view| self.take_in(view))
+    }
+
+    fn take_in(&mut self, view: View) -> bool {
         let time_s = self.base.time_s();
         if let Some(frame) = self.eyes.frame() {
             self.watcher.frame(time_s, self.localizer.pose(), frame);

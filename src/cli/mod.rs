@@ -31,7 +31,7 @@ pub use home::HomeArguments;
 pub use input::{Inputs, Line, read_file};
 pub use interrupt::on_interrupt;
 pub use log_input::FromLog;
-pub use output::{SharedSink, Sink, open_output};
+pub use output::{SharedSink, Sink, is_output_closed, open_output};
 pub use program::{Program, command_of, main};
 pub use progress::Progress;
 pub use scores::{

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use rustix::event::{PollFd, PollFlags, poll};
+use rustix::time::Timespec;
 use tempfile::NamedTempFile;
 
 use super::{Common, Failure, on_interrupt};
@@ -75,6 +77,13 @@ pub fn open_output(common: &Common) -> Result<SharedSink, Failure> {
         Some(path) => Sink { name: path.display().to_string(), target: open_file(path, common.force)? },
     };
     Ok(SharedSink(Arc::new(Mutex::new(sink))))
+}
+
+/// Whether whoever read standard output has gone.
+pub fn is_output_closed() -> bool {
+    let out = io::stdout();
+    let mut watched = [PollFd::new(&out, PollFlags::empty())];
+    poll(&mut watched, Some(&Timespec::default())).is_ok() && watched[0].revents().contains(PollFlags::ERR)
 }
 
 fn open_file(path: &Path, force: bool) -> Result<Target, Failure> {

@@ -62,6 +62,11 @@ pub trait Eyes {
     /// What is seen now; `believed` is where the robot believes it stands, and the frame of the answer.
     fn look(&mut self, believed: Pose) -> View;
 
+    /// What has been seen on the way, without waiting for it; none when nothing new is at hand.
+    fn glimpse(&mut self, believed: Pose) -> Option<View> {
+        Some(self.look(believed))
+    }
+
     /// Whether there is a camera at all.
     fn can_see(&self) -> bool {
         true

@@ -1,13 +1,13 @@
 //! What can go wrong with a log: what ends the reading, and what is only lost.
 
-use std::fmt;
+use std::{fmt, io};
 
 /// Why a log cannot be read or written at all.
 #[derive(Debug, thiserror::Error)]
 pub enum LogError {
     /// The system says no.
     #[error("{0}: {1}")]
-    System(String, std::io::Error),
+    System(String, io::Error),
     /// Something else than an MCAP log.
     #[error("{0}: not an MCAP log: it does not begin with the MCAP magic bytes; convert a bag with `mcap convert`")]
     NotMcap(String),
@@ -17,6 +17,20 @@ pub enum LogError {
     /// What should be written cannot be.
     #[error("the log cannot be written: {0}")]
     Unwritable(String),
+}
+
+impl LogError {
+    /// The same of a log whose name is known.
+    pub(super) fn named(self, name: &str) -> Self {
+        match self {
+            Self::System(_, error) if error.kind() == io::ErrorKind::StorageFull => {
+                let text = "the disk is full; free space and run again";
+                Self::System(name.to_string(), io::Error::new(error.kind(), text))
+            }
+            Self::System(_, error) => Self::System(name.to_string(), error),
+            other => other,
+        }
+    }
 }
 
 impl From<mcap::McapError> for LogError {

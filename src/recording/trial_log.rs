@@ -28,6 +28,7 @@ const PATH_SPACING_M: f64 = 0.1;
 
 /// Writes one trial while it goes on: what has been flushed can be read whatever happens next.
 pub struct TrialLog {
+    name: String,
     log: LogWriter<BufWriter<File>>,
     path: Vec<Pose>,
     flushed_s: f64,
@@ -50,7 +51,16 @@ impl TrialLog {
         camera: &Camera,
         about: BTreeMap<String, String>,
     ) -> Result<Self, LogError> {
-        let file = open(path, force)?;
+        let name = path.display().to_string();
+        let log = Self::begin(open(path, force)?, camera, about).map_err(|error| error.named(&name))?;
+        Ok(Self { name, log, path: Vec::new(), flushed_s: 0.0, failed: None })
+    }
+
+    fn begin(
+        file: File,
+        camera: &Camera,
+        about: BTreeMap<String, String>,
+    ) -> Result<LogWriter<BufWriter<File>>, LogError> {
         let mut log = LogWriter::new(BufWriter::new(file), Some(Compression::Zstd))?;
         log.metadata("spatial_fetch", about)?;
         let link = |parent: &str, child: &str, pose| transform(0, parent, child, pose);
@@ -61,10 +71,15 @@ impl TrialLog {
         ];
         log.message("/tf_static", 0, &FrameTransforms { transforms: fixed })?;
         log.flush()?;
-        Ok(Self { log, path: Vec::new(), flushed_s: 0.0, failed: None })
+        Ok(log)
     }
 
-    /// Writes, unless a write has failed before: a trial is not broken off for its log's sake.
+    /// Whether a write has failed, as on a full disk.
+    pub fn has_failed(&self) -> bool {
+        self.failed.is_some()
+    }
+
+    /// Writes, unless a write has failed before: a simulated trial is not broken off for its log's sake.
     fn put(&mut self, write: impl FnOnce(&mut LogWriter<BufWriter<File>>) -> Result<(), LogError>) {
         if self.failed.is_none() {
             self.failed = write(&mut self.log).err();
@@ -174,10 +189,11 @@ impl TrialLog {
     /// Ends the log; tells of any write that failed on the way.
     pub fn finish(mut self, time_s: f64) -> Result<(), LogError> {
         self.flush(time_s);
-        if let Some(error) = self.failed {
-            return Err(error);
-        }
-        self.log.finish().map(|_| ())
+        let finished = match self.failed {
+            Some(error) => Err(error),
+            None => self.log.finish().map(|_| ()),
+        };
+        finished.map_err(|error| error.named(&self.name))
     }
 }
 

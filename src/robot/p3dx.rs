@@ -22,6 +22,10 @@ pub const ACCELERATION_M_S2: f64 = 0.3;
 pub const BRAKING_M_S2: f64 = 0.6;
 /// Turning faster and slower, rad/s².
 pub const TURN_ACCELERATION_RAD_S2: f64 = 1.74;
+/// Braking when everything but standing still is given up (E_STOP): the top that CONFIG announces, m/s² and rad/s².
+pub const EMERGENCY_BRAKING_M_S2: f64 = 4.0;
+/// The same against turning: 600°/s².
+pub const EMERGENCY_TURN_BRAKING_RAD_S2: f64 = 10.472;
 /// What a sonar reports when nothing echoes, metres.
 pub const SONAR_RANGE_M: f64 = 5.0;
 

@@ -5,9 +5,13 @@
 //! scene.
 
 mod eyes;
+mod frame_stream;
 mod home;
 mod judge;
+#[cfg(feature = "kinect")]
+mod kinect;
 mod outputs;
+mod placing;
 mod real;
 mod recorder;
 mod run;
@@ -16,6 +20,7 @@ mod settings;
 mod stage;
 mod stream_eyes;
 
+pub use frame_stream::{Carrier, Tell};
 pub use home::Home;
 pub use judge::ideal_detection;
 pub use outputs::Outputs;

@@ -3,6 +3,7 @@
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::frame_stream::Tell;
 use super::outputs::{Outputs, file_name};
 use super::recorder::Recorder;
 use super::run::rounded;
@@ -28,8 +29,8 @@ pub struct RealDriver {
     robot: Mutex<Robot>,
     stopper: Stopper,
     busy: Arc<Busy>,
-    /// Where remarks go.
-    tell: Box<dyn Fn(&str) + Send + Sync>,
+    tell: Tell,
+    unheard: Box<dyn Fn() -> bool + Send + Sync>,
 }
 
 /// The robot with its eyes.
@@ -79,11 +80,26 @@ impl RealDriver {
         outputs: Outputs,
         base: ArcosBase,
         eyes: Box<dyn Eyes + Send>,
-        tell: Box<dyn Fn(&str) + Send + Sync>,
+        tell: Tell,
     ) -> Self {
         tell(base.preflight());
         let stopper = base.stopper();
-        Self { home, settings, outputs, robot: Mutex::new(Robot { base, eyes }), stopper, busy: Arc::default(), tell }
+        Self {
+            home,
+            settings,
+            outputs,
+            robot: Mutex::new(Robot { base, eyes }),
+            stopper,
+            busy: Arc::default(),
+            tell,
+            unheard: Box::new(|| false),
+        }
+    }
+
+    /// A trial also ends when `unheard` says, at any control period, that nobody reads what comes out of it.
+    pub fn while_heard(mut self, unheard: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+        self.unheard = Box::new(unheard);
+        self
     }
 
     /// What a signal handler needs.
@@ -108,7 +124,14 @@ impl RealDriver {
             }
             None => None,
         };
-        let mut log = Log { recorder, silent: Silent, stopper: self.stopper.clone(), tell: &self.tell };
+        let mut log = Log {
+            recorder,
+            silent: Silent,
+            stopper: self.stopper.clone(),
+            tell: self.tell.as_ref(),
+            unheard: self.unheard.as_ref(),
+        };
+        let _stops = StopInPanic(&self.stopper);
         let mut run = run(&self.home, plan, &self.settings, base, eyes.as_mut(), &mut log);
         log.drain(base.time_s());
         let picture = eyes.frame().map(RgbdFrame::color_png);
@@ -169,12 +192,24 @@ fn run(
     Run { trial, final_pose: pose, found_at: report.found_at }
 }
 
+/// A program that panics steers no more: the robot is stopped, its motors switched off and the line closed at once.
+struct StopInPanic<'a>(&'a Stopper);
+
+impl Drop for StopInPanic<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.stop();
+        }
+    }
+}
+
 /// Passes on what the executive tells, adds what happens to the robot, and hears of a stop.
 struct Log<'a> {
     recorder: Option<Recorder>,
     silent: Silent,
     stopper: Stopper,
     tell: &'a (dyn Fn(&str) + Send + Sync),
+    unheard: &'a (dyn Fn() -> bool + Send + Sync),
 }
 
 impl Log<'_> {
@@ -215,8 +250,9 @@ impl Watcher for Log<'_> {
         self.inner().furniture(time_s, furniture);
     }
 
+    /// Someone says so, or what the robot does can no longer be told.
     fn wants_stop(&self) -> bool {
-        self.stopper.is_stopping()
+        self.stopper.is_stopping() || self.recorder.as_ref().is_some_and(Recorder::has_failed) || (self.unheard)()
     }
 }
 

@@ -51,6 +51,11 @@ impl Recorder {
         Ok(Self { log })
     }
 
+    /// Whether the log can no longer be written.
+    pub(super) fn has_failed(&self) -> bool {
+        self.log.has_failed()
+    }
+
     /// Ends the log with the last picture and the record as `drive` writes it.
     pub(super) fn finish(mut self, run: &Run, picture: Vec<u8>, record: &str) -> Result<(), LogError> {
         let end = run.trial.duration_s.0;

@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::Home;
-use super::stream_eyes::{inverse, placed};
+use super::placing::{inverse, placed};
 use crate::geometry::Pose;
 use crate::recording::{FrameWriter, TimedFrame};
 use crate::robot::arcos::server::{ServeAddress, Server, ServerSettings, serve};

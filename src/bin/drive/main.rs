@@ -71,7 +71,9 @@ impl Program for Arguments {
         let (driver, common): (Box<dyn Stage>, Common) = if self.robot.is_real() {
             // One robot, one plan at a time.
             let common = Common { jobs: 1, ..self.common };
-            (Box::new(self.robot.driver(home.map, settings, outputs, reporter)?), common)
+            let to_stdout = common.output.is_none();
+            let driver = self.robot.driver(home.map, settings, outputs, reporter)?;
+            (Box::new(driver.while_heard(move || to_stdout && cli::is_output_closed())), common)
         } else {
             (Box::new(Driver { home, settings, outputs }), self.common)
         };

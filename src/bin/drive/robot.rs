@@ -1,6 +1,7 @@
 //! Which robot is driven, how carefully, and through which camera; or served to others.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
@@ -11,7 +12,7 @@ use spatial_fetch::robot::arcos::line::{Address, DryLine, Line};
 use spatial_fetch::robot::arcos::parameters::Parameters;
 use spatial_fetch::robot::arcos::server::{ServeAddress, ServerSettings};
 use spatial_fetch::robot::p3dx::SonarArray;
-use spatial_fetch::trial::{Home, NoEyes, Outputs, RealDriver, Served, StreamEyes};
+use spatial_fetch::trial::{Home, NoEyes, Outputs, RealDriver, Served, StreamEyes, Tell};
 
 /// The models whose scales are known.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -28,7 +29,7 @@ pub struct Arguments {
     /// sim, `serial:/dev/ttyUSB0[@38400]` or tcp:HOST:8101
     #[arg(long, value_name = "ADDRESS", default_value = "sim")]
     robot: Address,
-    /// Frames of the real robot's camera, an MCAP file, FIFO or `-`; none drives by odometry and sonar alone
+    /// Frames of the real robot's camera: an MCAP file, FIFO or `-`, or kinect; none drives by odometry and sonar alone
     #[arg(long, value_name = "FILE", default_value = "none")]
     camera: PathBuf,
     /// Fastest, m/s
@@ -124,17 +125,35 @@ impl Arguments {
         let start = map.start;
         let base = ArcosBase::connect(self.line()?, self.settings(), start)
             .map_err(|error| Failure::Failed(error.to_string()))?;
-        let eyes: Box<dyn Eyes + Send> = if self.camera.as_os_str() == "none" {
-            Box::new(NoEyes)
-        } else {
-            let eyes = StreamEyes::open(&self.camera, map.clone(), base.stopper());
-            Box::new(eyes.map_err(|error| Failure::Failed(format!("--camera: {error}")))?)
-        };
-        let tell = Box::new(move |text: &str| reporter.remark(text));
+        let tell: Tell = Arc::new(move |text: &str| reporter.remark(text));
+        let eyes = self.eyes(&map, &base, &tell)?;
         let driver = RealDriver::new(Home::unfurnished(map), settings, outputs, base, eyes, tell);
         let interrupter = driver.interrupter();
         on_interrupt(move || interrupter.stop());
         Ok(driver)
+    }
+
+    fn eyes(
+        &self,
+        map: &spatial_fetch::world::RoomMap,
+        base: &ArcosBase,
+        tell: &Tell,
+    ) -> Result<Box<dyn Eyes + Send>, Failure> {
+        let (map, carrier, tell) = (map.clone(), Arc::new(base.stopper()), Arc::clone(tell));
+        let eyes = match self.camera.to_str() {
+            Some("none") => return Ok(Box::new(NoEyes)),
+            #[cfg(feature = "kinect")]
+            Some("kinect") => StreamEyes::kinect(map, carrier, tell),
+            #[cfg(not(feature = "kinect"))]
+            Some("kinect") => {
+                let what = "--camera kinect: this build has no Kinect; build it with `--features kinect` (a file of that name is ./kinect)";
+                return Err(Failure::Usage(what.to_string()));
+            }
+            _ => StreamEyes::open(&self.camera, map, carrier, tell),
+        };
+        let eyes = eyes.map_err(|error| Failure::Failed(format!("--camera: {error}")))?;
+        on_interrupt(eyes.closer());
+        Ok(Box::new(eyes))
     }
 
     fn line(&self) -> Result<Box<dyn Line + Send>, Failure> {

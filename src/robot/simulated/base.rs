@@ -94,21 +94,31 @@ impl SimulatedBase {
         Rc::clone(&self.truth)
     }
 
-    fn step(&mut self, linear: f64, angular: f64) {
-        self.velocity = (
-            toward(
-                self.velocity.0,
-                linear.clamp(-p3dx::SPEED_M_S, p3dx::SPEED_M_S),
-                p3dx::ACCELERATION_M_S2,
-                p3dx::BRAKING_M_S2,
-            ),
-            toward(
-                self.velocity.1,
-                angular.clamp(-p3dx::TURN_RAD_S, p3dx::TURN_RAD_S),
-                p3dx::TURN_ACCELERATION_RAD_S2,
-                p3dx::TURN_ACCELERATION_RAD_S2,
-            ),
-        );
+    /// Brakes as hard as the wheels hold, for `seconds`.
+    pub fn brake(&mut self, seconds: f64) {
+        self.live(seconds, |(linear, angular)| {
+            (
+                toward(linear, 0.0, 0.0, p3dx::EMERGENCY_BRAKING_M_S2),
+                toward(angular, 0.0, 0.0, p3dx::EMERGENCY_TURN_BRAKING_RAD_S2),
+            )
+        });
+    }
+
+    /// Lives for `seconds`, with the velocity of each step made of the one before.
+    fn live(&mut self, seconds: f64, next: impl Fn((f64, f64)) -> (f64, f64)) {
+        let steps = (seconds / STEP_S).round() as u64;
+        for _ in 0..steps {
+            self.velocity = next(self.velocity);
+            self.step();
+            if self.steps.is_multiple_of(STEPS_PER_PING) {
+                let pose = self.truth.borrow().pose;
+                self.ears.fire(&self.obstacles, pose, &mut self.dice);
+            }
+        }
+        self.read_compass();
+    }
+
+    fn step(&mut self) {
         let before = self.truth.borrow().pose;
         let (metres, radians) = (self.velocity.0 * STEP_S, self.velocity.1 * STEP_S);
         let after = self.wheels.roll(before, metres, radians, &mut self.dice);
@@ -175,15 +185,15 @@ impl MobileBase for SimulatedBase {
     }
 
     fn drive(&mut self, linear: f64, angular: f64, seconds: f64) -> Result<(), RobotError> {
-        let steps = (seconds / STEP_S).round() as u64;
-        for _ in 0..steps {
-            self.step(linear, angular);
-            if self.steps.is_multiple_of(STEPS_PER_PING) {
-                let pose = self.truth.borrow().pose;
-                self.ears.fire(&self.obstacles, pose, &mut self.dice);
-            }
-        }
-        self.read_compass();
+        let linear = linear.clamp(-p3dx::SPEED_M_S, p3dx::SPEED_M_S);
+        let angular = angular.clamp(-p3dx::TURN_RAD_S, p3dx::TURN_RAD_S);
+        self.live(seconds, |velocity| {
+            let turning = p3dx::TURN_ACCELERATION_RAD_S2;
+            (
+                toward(velocity.0, linear, p3dx::ACCELERATION_M_S2, p3dx::BRAKING_M_S2),
+                toward(velocity.1, angular, turning, turning),
+            )
+        });
         Ok(())
     }
 

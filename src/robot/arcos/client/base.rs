@@ -1,5 +1,6 @@
 //! A client on a thread of its own: the robot stops in time whatever the program does.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -50,6 +51,8 @@ pub struct ArcosBase {
     start: Pose,
     /// When the trial began, and the metres driven before it.
     began: (Duration, f64),
+    /// When the last control period ended.
+    due: Option<Instant>,
 }
 
 /// Stops the robot from anywhere, such as a signal handler's thread, and knows how it is.
@@ -102,9 +105,26 @@ impl ArcosBase {
         let shared = Arc::new(Shared::default());
         *shared.lock() = State { start, report: report.clone(), ..State::default() };
         let theirs = Arc::clone(&shared);
-        let thread = std::thread::Builder::new().name("robot".to_string()).spawn(move || run(client, &theirs));
+        let thread = std::thread::Builder::new().name("robot".to_string()).spawn(move || {
+            // Whatever becomes of the thread, the client says good-bye when it is dropped, and the program hears of it.
+            if catch_unwind(AssertUnwindSafe(|| run(client, &theirs))).is_err() {
+                let mut state = theirs.lock();
+                state.failed = Some("internal error in the thread that talks to it, please report it".to_string());
+                state.ended = true;
+                theirs.changed.notify_all();
+            }
+        });
         let thread = thread.map_err(|error| ConnectError::Line("the robot's thread".to_string(), error))?;
-        Ok(Self { shared, thread: Some(thread), report, resume, preflight, start, began: (Duration::ZERO, 0.0) })
+        Ok(Self {
+            shared,
+            thread: Some(thread),
+            report,
+            resume,
+            preflight,
+            start,
+            began: (Duration::ZERO, 0.0),
+            due: None,
+        })
     }
 
     /// Everything to know before driving off, in one line.
@@ -131,6 +151,14 @@ impl ArcosBase {
     /// The robot's last report.
     pub fn report(&self) -> &Report {
         &self.report
+    }
+
+    /// Sleeps until the control period is over: what the program did meanwhile counts, unless it took longer than that.
+    fn sleep(&mut self, period: Duration) {
+        let now = Instant::now();
+        let due = self.due.map(|last| last + period).filter(|due| *due > now).unwrap_or(now + period);
+        std::thread::sleep(due - now);
+        self.due = Some(due);
     }
 }
 
@@ -194,7 +222,7 @@ impl MobileBase for ArcosBase {
 
     fn drive(&mut self, linear: f64, angular: f64, seconds: f64) -> Result<(), RobotError> {
         self.shared.lock().ask = Some((linear, angular));
-        std::thread::sleep(Duration::from_secs_f64(seconds.clamp(0.0, 3600.0)));
+        self.sleep(Duration::from_secs_f64(seconds.clamp(0.0, 3600.0)));
         let state = self.shared.lock();
         self.report = state.report.clone();
         if let Some(why) = &state.failed {

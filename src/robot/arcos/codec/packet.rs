@@ -192,6 +192,16 @@ mod tests {
         (packets, decoder.counters())
     }
 
+    /// Whether the first bytes are a packet with a right checksum that is longer than `least`.
+    fn begins_packet_to_beyond(bytes: &[u8], least: usize) -> bool {
+        let whole = |count: &u8| bytes.get(3..usize::from(*count) + 3).filter(|_| *count >= 3);
+        let [0xFA, 0xFB, count, ..] = bytes else { return false };
+        let Some((body, sum)) = whole(count).and_then(|rest| rest.split_at_checked(rest.len() - 2)) else {
+            return false;
+        };
+        checksum(body).to_be_bytes() == sum && bytes.len().min(usize::from(*count) + 3) > least
+    }
+
     #[test]
     fn a_left_over_byte_is_exclusive_ored_not_added() {
         assert_eq!(checksum(&[0x00, 0xFF, 0x01]), 0x00FE);
@@ -251,9 +261,8 @@ mod tests {
 
         #[test]
         fn after_any_garbage_the_next_packets_are_found(
-            // A false header may swallow what follows until it is given up; the seed of a false packet with a
-            // right checksum is left out by leaving out headers with a small count.
-            garbage in prop::collection::vec(any::<u8>().prop_filter("no header", |b| *b != 0xFB), 0..300),
+            // Without a header: one may swallow what follows until it is given up.
+            garbage in prop::collection::vec(any::<u8>().prop_map(|b| if b == 0xFB { 0xFA } else { b }), 0..300),
             data in prop::collection::vec(any::<u8>(), 0..100),
         ) {
             let packet = Packet::new(50, data);
@@ -268,14 +277,16 @@ mod tests {
             data in prop::collection::vec(any::<u8>(), 0..60),
         ) {
             let packet = Packet::new(50, data);
+            let bytes = [garbage.as_slice(), &packet.to_bytes()].concat();
             let mut decoder = Decoder::default();
-            decoder.push(&garbage, NOW);
-            decoder.push(&packet.to_bytes(), NOW);
+            decoder.push(&bytes, NOW);
             let mut found = Vec::new();
             for tick in 0..garbage.len() as u32 + 1 {
                 found.extend(std::iter::from_fn(|| decoder.next(tick * LATER)));
             }
-            prop_assert_eq!(found.last(), Some(&packet));
+            // One header in 65,536 has a right checksum by chance: no receiver can tell that packet from a true one.
+            let swallowed = (0..garbage.len()).any(|at| begins_packet_to_beyond(&bytes[at..], garbage.len() - at));
+            prop_assert!(swallowed || found.last() == Some(&packet));
         }
 
         #[test]

@@ -168,3 +168,23 @@ impl Line for SerialLine {
         format!("serial:{}", self.device.display())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_device_that_may_not_be_used_names_its_group_and_how_to_join_it() {
+        let device = tempfile::NamedTempFile::new().expect("a file");
+        let group = group_name(device.path().metadata().expect("there").gid()).expect("a group with a name");
+        let error = explain(device.path(), io::ErrorKind::PermissionDenied.into());
+        let text = format!("its group is `{group}`: run `sudo usermod -aG {group} $USER` and log in again");
+        assert!(error.kind() == io::ErrorKind::PermissionDenied && error.to_string().contains(&text), "{error}");
+    }
+
+    #[test]
+    fn a_device_whose_group_cannot_be_told_is_taken_to_be_of_the_usual_one() {
+        let error = explain(Path::new("no/such/device"), io::ErrorKind::PermissionDenied.into());
+        assert!(error.to_string().contains("usermod -aG dialout"), "{error}");
+    }
+}

@@ -3,6 +3,7 @@
 //! [`Server`] does no input or output of its own: bytes in, time on, bytes out.
 //! [`serve`] connects it to real lines and the wall clock.
 
+mod extras;
 mod motion;
 mod reports;
 mod serve;

@@ -54,13 +54,21 @@ pub struct Motion {
     turn: Turn,
     /// The velocities asked of the base in the last step.
     now: (f64, f64),
+    /// An emergency stop is under way.
+    emergency: bool,
     /// Limits in force.
     pub limits: Limits,
 }
 
 impl Default for Motion {
     fn default() -> Self {
-        Self { forward: Forward::Velocity(0.0), turn: Turn::Velocity(0.0), now: (0.0, 0.0), limits: Limits::default() }
+        Self {
+            forward: Forward::Velocity(0.0),
+            turn: Turn::Velocity(0.0),
+            now: (0.0, 0.0),
+            emergency: false,
+            limits: Limits::default(),
+        }
     }
 }
 
@@ -103,10 +111,26 @@ impl Motion {
         self.turn = Turn::Velocity(0.0);
     }
 
-    /// E_STOP, or motors without power: as hard as the base can.
-    pub fn stop_hard(&mut self) {
+    /// Motors without power: nothing more is asked of the base.
+    pub fn give_up(&mut self) {
         self.stop();
         self.now = (0.0, 0.0);
+    }
+
+    /// E_STOP: as hard as the base can, whatever deceleration is set.
+    pub fn stop_in_emergency(&mut self) {
+        self.give_up();
+        self.emergency = true;
+    }
+
+    /// Whether an emergency stop is under way, in which nothing else is obeyed.
+    pub fn is_emergency(&self) -> bool {
+        self.emergency
+    }
+
+    /// The robot stands: the emergency is over.
+    pub fn stands(&mut self) {
+        self.emergency = false;
     }
 
     /// Whether the set-points ask for any motion.

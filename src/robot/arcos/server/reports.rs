@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::Server;
-use crate::robot::MobileBase;
 use crate::robot::arcos::codec::{Config, Encoder, Flags, Sip, SipTail};
+use crate::robot::{MobileBase, p3dx};
 
 /// Encoder ticks a millimetre.
 const TICKS_MM: u16 = 128;
@@ -102,8 +102,8 @@ impl Server {
             four_motors: Some(0),
             turn_top: Some(500),
             speed_top: Some(2200),
-            turn_acceleration_top: Some(600),
-            acceleration_top: Some(4000),
+            turn_acceleration_top: deg(p3dx::EMERGENCY_TURN_BRAKING_RAD_S2),
+            acceleration_top: mm(p3dx::EMERGENCY_BRAKING_M_S2),
             pwm_max: Some(500),
             name: text(&self.settings.name),
             sip_cycle_ms: Some(self.settings.cycle.as_millis() as u8),

@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 use std::rc::Rc;
 use std::time::Duration;
 
+use super::extras::Extras;
 use super::motion::{Motion, STEP_S};
 use crate::geometry::Pose;
-use crate::robot::arcos::codec::{Command, Counters, Decoder, Packet, number};
+use crate::robot::arcos::codec::{Command, Counters, Decoder, Io, Packet, number};
 use crate::robot::arcos::parameters::Parameters;
 use crate::robot::simulated::{SimulatedBase, Truth};
 use crate::robot::{MobileBase, RobotError};
@@ -73,7 +74,7 @@ pub struct Server {
     pub(super) motors: bool,
     pub(super) stop_button: bool,
     pub(super) sonar: bool,
-    pub(super) encoders: bool,
+    extras: Extras,
     pub(super) sips: u64,
     pub(super) battery_v: f64,
     pub(super) travelled: (f64, f64),
@@ -101,7 +102,7 @@ impl Server {
             motors: false,
             stop_button: false,
             sonar: true,
-            encoders: false,
+            extras: Extras::default(),
             sips: 0,
             battery_v: 12.8,
             travelled: (0.0, 0.0),
@@ -171,7 +172,7 @@ impl Server {
         self.stop_button = pressed;
         if pressed {
             self.motors = false;
-            self.motion.stop_hard();
+            self.motion.give_up();
         }
     }
 
@@ -222,11 +223,19 @@ impl Server {
         }
         let (linear, angular) = self.motion.step(held, self.own_pose().heading);
         let before = self.base.pose();
-        self.base.drive(linear, angular, STEP_S)?;
+        if self.motion.is_emergency() {
+            self.base.brake(STEP_S);
+            if self.base.velocity() == (0.0, 0.0) {
+                self.motion.stands();
+            }
+        } else {
+            self.base.drive(linear, angular, STEP_S)?;
+        }
         let ahead = before.to_local(self.base.pose().position()).x;
         self.motion.moved(ahead);
         self.travelled.0 += ahead;
         self.travelled.1 += crate::geometry::wrap_angle(self.base.pose().heading - before.heading);
+        self.extras.turned(self.base.velocity().1);
         self.battery_v =
             (self.battery_v - STEP_S * if linear == 0.0 && angular == 0.0 { 2e-5 } else { 2e-4 }).max(10.0);
         Ok(())
@@ -277,7 +286,7 @@ impl Server {
     fn close(&mut self) {
         self.motion.stop();
         self.motors = false;
-        self.encoders = false;
+        self.extras = Extras::default();
         self.state = State::Sync(0);
         self.log.push("the client has closed the robot".to_string());
     }
@@ -293,24 +302,24 @@ impl Server {
             }
             number::SETO => self.reset_odometry(),
             number::SONAR => self.sonar = value.unwrap_or(0) & 1 != 0,
-            number::ENCODER => self.encoders = value.unwrap_or(0) > 0,
-            number::IOREQUEST => {
-                let packet = crate::robot::arcos::codec::Io::default().to_packet();
-                self.send(&packet);
-            }
             number::HOSTBAUD => {
                 let rates = [9600, 19200, 38400, 57600, 115_200];
                 self.baud_asked = value.and_then(|index| rates.get(usize::try_from(index).ok()?).copied());
             }
             number::BATTEST => self.battery_v = value.filter(|dv| *dv > 0).map_or(12.8, |dv| f64::from(dv) / 10.0),
-            _ => self.obey_motion(command.number, value),
+            number if self.extras.ask(number, value) => {}
+            number => self.obey_motion(number, value),
         }
         if !self.motors && command.number == number::ENABLE {
-            self.motion.stop_hard();
+            self.motion.give_up();
         }
     }
 
     fn obey_motion(&mut self, command: u8, value: Option<i32>) {
+        // In an emergency stop motion commands are ignored until the robot stands.
+        if self.motion.is_emergency() {
+            return;
+        }
         let metres = f64::from(value.unwrap_or(0)) / 1000.0;
         let radians = f64::from(value.unwrap_or(0)).to_radians();
         let heading = self.own_pose().heading;
@@ -328,7 +337,7 @@ impl Server {
             number::DHEAD => self.motion.turn_to(heading + radians.clamp(-TAU, TAU)),
             number::DCHEAD => self.motion.turn_on(radians, heading),
             number::STOP => self.motion.stop(),
-            number::E_STOP | number::QSTOP => self.motion.stop_hard(),
+            number::E_STOP | number::QSTOP => self.motion.stop_in_emergency(),
             number::SETV => self.motion.limits.speed = metres.abs(),
             number::SETRV => self.motion.limits.turn = radians.abs(),
             number::SETA if metres > 0.0 => self.motion.limits.acceleration = metres,
@@ -340,12 +349,19 @@ impl Server {
         }
     }
 
+    /// The gyro goes before the SIP, everything else after it.
     fn report(&mut self) {
+        if let Some(gyro) = self.extras.gyro() {
+            self.send(&gyro.to_packet());
+        }
         let sip = self.sip().to_packet();
         self.send(&sip);
-        if self.encoders {
+        if self.extras.encoders_are_due() {
             let packet = self.encoder().to_packet();
             self.send(&packet);
+        }
+        if self.extras.inputs_are_due() {
+            self.send(&Io::default().to_packet());
         }
         self.sips += 1;
     }
