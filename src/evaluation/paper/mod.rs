@@ -6,7 +6,7 @@ mod figures;
 mod text;
 
 pub use csv::paper_csv;
-pub use experiments::{Case, paper};
+pub use experiments::{Case, Experiments};
 pub use text::paper_text;
 
 use std::collections::BTreeMap;
