@@ -23,6 +23,11 @@ impl FileError {
     }
 }
 
+/// Says before work that takes long what [`write_file`] would say after it.
+pub fn refuse_existing(path: &Path, force: bool) -> Result<(), FileError> {
+    if path.is_file() && !force { Err(FileError::Exists(path.display().to_string())) } else { Ok(()) }
+}
+
 /// Writes a file by a temporary one and a rename; refuses to overwrite without `force`.
 pub fn write_file(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
     let mut temporary = temporary_beside(path)?;

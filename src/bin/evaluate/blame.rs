@@ -37,6 +37,10 @@ impl Command for Arguments {
         &self.common
     }
 
+    fn reads_files(&self) -> bool {
+        false
+    }
+
     fn run(&self) -> Result<Exit, Failure> {
         let gold = cli::load_gold_with(self.gold.as_deref(), self.meanings.as_deref())?;
         let home = self.home.load()?;

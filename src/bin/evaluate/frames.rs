@@ -26,6 +26,10 @@ impl Command for Arguments {
         &self.common
     }
 
+    fn reads_files(&self) -> bool {
+        false
+    }
+
     fn run(&self) -> Result<Exit, Failure> {
         let folder = self.common.output.as_deref().unwrap_or(Path::new("frames"));
         let failed = |error: std::io::Error| Failure::Failed(format!("{}: {error}", folder.display()));

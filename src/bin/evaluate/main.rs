@@ -22,6 +22,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use spatial_fetch::cli::{self, Common, Exit, Failure, Program};
 use spatial_fetch::evaluation::Scores;
+use spatial_fetch::files::refuse_existing;
 
 /// Holds what the stages say against gold: trees, groundings, trials, with counts and intervals.
 #[derive(Parser)]
@@ -77,6 +78,11 @@ trait Command {
     /// The shared options.
     fn common(&self) -> &Common;
 
+    /// Whether it reads the files named.
+    fn reads_files(&self) -> bool {
+        true
+    }
+
     /// Whether it waits for standard input when no file is named.
     fn reads_standard_input(&self) -> bool {
         false
@@ -118,10 +124,21 @@ impl Program for Arguments {
         schemars::schema_for!(Scores)
     }
     fn reads_standard_input(&self) -> bool {
-        self.command().reads_standard_input()
+        self.command().reads_standard_input() && self.common().files.is_empty()
     }
     fn run(self) -> Result<Exit, Failure> {
-        self.command().run()
+        let (command, common) = (self.command(), self.common());
+        if let Some(file) = common.files.first().filter(|_| !command.reads_files()) {
+            let message = format!(
+                "{}: this subcommand takes no FILE; what it reads is named by options, as --gold",
+                file.display()
+            );
+            return Err(Failure::Usage(message));
+        }
+        if let Some(path) = &common.output {
+            refuse_existing(path, common.force)?;
+        }
+        command.run()
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Reporter};
 use spatial_fetch::evaluation::{Experiments, Paper, paper_csv, paper_text, write_report};
+use spatial_fetch::files::refuse_existing;
 use spatial_fetch::trial::{Home, Perception, Settings};
 use spatial_fetch::world::{RoomMap, Scene};
 
@@ -36,7 +37,14 @@ impl Command for Arguments {
         &self.common
     }
 
+    fn reads_files(&self) -> bool {
+        false
+    }
+
     fn run(&self) -> Result<Exit, Failure> {
+        if let Some(folder) = &self.report {
+            refuse_existing(&folder.join("index.html"), self.common.force)?;
+        }
         let gold = cli::load_gold(self.gold.as_deref())?;
         let corpus = self.gold.as_ref().map_or("own templates".to_string(), |path| path.display().to_string());
         let homes =

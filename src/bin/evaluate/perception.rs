@@ -28,7 +28,7 @@ impl Command for Arguments {
     }
 
     fn reads_standard_input(&self) -> bool {
-        self.common.files.is_empty()
+        true
     }
 
     fn run(&self) -> Result<Exit, Failure> {

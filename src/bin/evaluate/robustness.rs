@@ -51,6 +51,10 @@ impl Command for Arguments {
         &self.common
     }
 
+    fn reads_files(&self) -> bool {
+        false
+    }
+
     fn run(&self) -> Result<Exit, Failure> {
         let total = self.total()?;
         let robustness = cli::counted_on_threads(&self.common, total, |done| self.measure(done))??;

@@ -31,6 +31,10 @@ impl Command for Arguments {
         &self.common
     }
 
+    fn reads_files(&self) -> bool {
+        false
+    }
+
     fn run(&self) -> Result<Exit, Failure> {
         let gold = cli::load_gold(self.gold.as_deref())?;
         let home = self.home.load()?;

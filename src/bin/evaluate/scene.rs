@@ -33,6 +33,10 @@ impl Command for Arguments {
         &self.common
     }
 
+    fn reads_files(&self) -> bool {
+        false
+    }
+
     fn run(&self) -> Result<Exit, Failure> {
         let mut dice = Dice::new(self.common.seed, 0);
         let home = if self.new { self.new_home(&mut dice) } else { self.rearranged(&mut dice) }?;

@@ -25,6 +25,10 @@ impl Command for Arguments {
         &self.common
     }
 
+    fn reads_files(&self) -> bool {
+        false
+    }
+
     fn run(&self) -> Result<Exit, Failure> {
         let model = train(Schooling { frames: self.count, seed: self.common.seed });
         let path = self.common.output.as_deref().unwrap_or(Path::new("furniture.model"));

@@ -30,7 +30,7 @@ impl Command for Arguments {
     }
 
     fn reads_standard_input(&self) -> bool {
-        self.text.is_none() && self.common.files.is_empty()
+        self.text.is_none()
     }
 
     fn run(&self) -> Result<Exit, Failure> {
