@@ -164,6 +164,11 @@ impl TrialLog {
         self.put(LogWriter::flush);
     }
 
+    /// The options of the run, one JSON line.
+    pub fn options(&mut self, topic: &str, line: &str) {
+        self.put(|log| log.json(topic, "spatial_fetch.Options", OPTIONS_SCHEMA, 0, line));
+    }
+
     /// Ends the log; tells of any write that failed on the way.
     pub fn finish(mut self, time_s: f64) -> Result<(), LogError> {
         self.flush(time_s);
@@ -173,6 +178,8 @@ impl TrialLog {
         self.log.finish().map(|_| ())
     }
 }
+
+const OPTIONS_SCHEMA: &str = r#"{"type":"object","properties":{"options":{"type":"array","items":{"type":"string"}}}}"#;
 
 const VELOCITY_SCHEMA: &str =
     r#"{"type":"object","properties":{"linear_m_s":{"type":"number"},"angular_rad_s":{"type":"number"}}}"#;

@@ -14,6 +14,9 @@ use crate::robot::{MobileBase, p3dx};
 const STAGES: [(&str, &[&str]); 4] =
     [("chunk", &["tokens", "chunks"]), ("ground", &["grounding"]), ("plan", &["plan"]), ("drive", &["trial"])];
 
+/// Where a log says with which options its trial was run.
+pub const OPTIONS_TOPIC: &str = "/fetch/options";
+
 /// Writes what the executive does, as it happens.
 pub(super) struct Recorder {
     log: TrialLog,
@@ -49,6 +52,13 @@ impl Recorder {
         });
         log.truth(&pieces.collect::<Vec<_>>());
         Ok(Self { log })
+    }
+
+    /// How the trial is run, as options of the command line, for a replay.
+    pub(super) fn options(&mut self, line: &str) {
+        if !line.is_empty() {
+            self.log.options(OPTIONS_TOPIC, line);
+        }
     }
 
     /// Ends the log with the last picture and the record as `drive` writes it.
