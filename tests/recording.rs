@@ -125,12 +125,28 @@ fn a_trial_that_was_killed_leaves_everything_but_the_last_second() {
 }
 
 #[test]
+fn what_the_camera_showed_is_perceived_again_from_the_log() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let log = folder.path().join("camera.mcap");
+    let planned = pipe(&["chunk", "ground", "plan"], "go into the bedroom\n");
+    let arguments = ["--perception", "camera", "--time-limit", "30", "--record", log.to_str().expect("UTF-8")];
+    run("drive", &arguments, &planned).expect_code(0);
+    let detections = |line: String| -> serde_json::Value {
+        serde_json::from_str::<serde_json::Value>(&line).expect("JSON")["detections"].take()
+    };
+    let seen: Vec<_> = records(&log, "/fetch/seen").expect("a log").into_iter().map(detections).collect();
+    let again = run("perceive", &["--map", "apartment", log.to_str().expect("UTF-8")], "").expect_code(0);
+    let again: Vec<_> = again.out.lines().map(str::to_string).map(detections).collect();
+    assert!(seen.len() > 3 && again == seen, "{again:?} instead of {seen:?}");
+}
+
+#[test]
 fn at_no_moment_is_more_than_a_second_missing_from_the_log() {
     let recorded = recorded();
     let whole = std::fs::read(&recorded.log).expect("readable");
     let cut = Path::new(&recorded.log).with_extension("cut");
     let mut last = 0.0;
-    for length in (1..=200).map(|part| whole.len() * part / 200) {
+    for length in (1..=1000).map(|part| whole.len() * part / 1000) {
         std::fs::write(&cut, &whole[..length]).expect("written");
         let reached = odometry_times(&cut).last().copied().unwrap_or(0.0);
         // The trial's first second may be shorter or longer by a control period.

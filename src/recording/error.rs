@@ -28,6 +28,20 @@ impl From<mcap::McapError> for LogError {
     }
 }
 
+impl LogError {
+    /// The same error of the file with this name.
+    pub(super) fn named(self, name: &str) -> Self {
+        match self {
+            Self::System(_, error) if error.kind() == std::io::ErrorKind::StorageFull => {
+                let what = "the disk is full; free space and run again";
+                Self::System(name.to_string(), std::io::Error::new(error.kind(), what))
+            }
+            Self::System(_, error) => Self::System(name.to_string(), error),
+            other => other,
+        }
+    }
+}
+
 /// Something of a log that was lost or skipped while the rest was read; says what and what mends it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Loss(pub String);

@@ -28,6 +28,7 @@ const PATH_SPACING_M: f64 = 0.1;
 /// Writes one trial while it goes on: what has been flushed can be read whatever happens next.
 pub struct TrialLog {
     log: LogWriter<BufWriter<File>>,
+    name: String,
     path: Vec<Pose>,
     flushed_s: f64,
     failed: Option<LogError>,
@@ -43,7 +44,11 @@ struct Velocity {
 impl TrialLog {
     /// Begins a log at `path`; refuses a file that exists unless `force`. `about` says how the trial is run.
     pub fn create(path: &Path, force: bool, about: BTreeMap<String, String>) -> Result<Self, LogError> {
-        let file = open(path, force)?;
+        let name = path.display().to_string();
+        Self::begin(open(path, force)?, about).map(|log| Self { name: name.clone(), ..log }).map_err(|e| e.named(&name))
+    }
+
+    fn begin(file: File, about: BTreeMap<String, String>) -> Result<Self, LogError> {
         let mut log = LogWriter::new(BufWriter::new(file), Some(Compression::Zstd))?;
         log.metadata("spatial_fetch", about)?;
         let link = |parent: &str, child: &str, pose| transform(0, parent, child, pose);
@@ -54,7 +59,7 @@ impl TrialLog {
         ];
         log.message("/tf_static", 0, &FrameTransforms { transforms: fixed })?;
         log.flush()?;
-        Ok(Self { log, path: Vec::new(), flushed_s: 0.0, failed: None })
+        Ok(Self { log, name: String::new(), path: Vec::new(), flushed_s: 0.0, failed: None })
     }
 
     /// Writes, unless a write has failed before: a trial is not broken off for its log's sake.
@@ -144,6 +149,11 @@ impl TrialLog {
         self.put(|log| write_pictures(log, frame));
     }
 
+    /// What the eyes made of a look, one JSON line.
+    pub fn seen(&mut self, time_s: f64, line: &str) {
+        self.put(|log| log.json("/fetch/seen", "spatial_fetch.Seen", SEEN_SCHEMA, nanoseconds(time_s), line));
+    }
+
     /// The last picture, as PNG.
     pub fn picture(&mut self, time_s: f64, png: Vec<u8>) {
         let time_ns = nanoseconds(time_s);
@@ -173,11 +183,13 @@ impl TrialLog {
     pub fn finish(mut self, time_s: f64) -> Result<(), LogError> {
         self.flush(time_s);
         if let Some(error) = self.failed {
-            return Err(error);
+            return Err(error.named(&self.name));
         }
-        self.log.finish().map(|_| ())
+        self.log.finish().map(|_| ()).map_err(|error| error.named(&self.name))
     }
 }
+
+const SEEN_SCHEMA: &str = r#"{"type":"object","properties":{"detections":{"type":"array","items":{"type":"object"}}}}"#;
 
 const OPTIONS_SCHEMA: &str = r#"{"type":"object","properties":{"options":{"type":"array","items":{"type":"string"}}}}"#;
 

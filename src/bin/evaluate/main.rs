@@ -138,6 +138,8 @@ impl Program for Arguments {
         if let Some(path) = &common.output {
             refuse_existing(path, common.force)?;
         }
+        // Whatever it does, an interrupt ends it tidily.
+        cli::on_interrupt(|| ());
         command.run()
     }
 }
