@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 use std::path::Path;
+use std::sync::{PoisonError, RwLock};
 
 use tempfile::NamedTempFile;
 
@@ -23,8 +24,22 @@ impl FileError {
     }
 }
 
+/// Says before work that takes long what [`write_file`] would say after it.
+pub fn refuse_existing(path: &Path, force: bool) -> Result<(), FileError> {
+    if path.is_file() && !force { Err(FileError::Exists(path.display().to_string())) } else { Ok(()) }
+}
+
+/// Held by every file being written, so that a process that is told to end leaves no temporary ones.
+static WRITING: RwLock<()> = RwLock::new(());
+
+/// Waits for the files being written and lets no other begin: for a process about to exit.
+pub fn end_writing() {
+    std::mem::forget(WRITING.write().unwrap_or_else(PoisonError::into_inner));
+}
+
 /// Writes a file by a temporary one and a rename; refuses to overwrite without `force`.
 pub fn write_file(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
+    let _writing = WRITING.read().unwrap_or_else(PoisonError::into_inner);
     let mut temporary = temporary_beside(path)?;
     temporary.write_all(bytes).map_err(|error| FileError::of(path, error))?;
     persist(temporary, path, force)

@@ -100,7 +100,7 @@ fn a_regression_fails_when_asked_to() {
 fn failures_are_charged_and_told() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = run("evaluate", &["blame", "--gold", &few(folder.path()), "--format", "text"], "").expect_code(0).out;
-    assert!(text.contains("of 3 descriptions failed"), "{text}");
+    assert!(text.contains("1 of 3 descriptions failed: 33.3 % (6.1–79.2)"), "{text}");
 }
 
 #[test]
@@ -155,7 +155,7 @@ fn ablations_are_the_same_bytes_for_any_number_of_jobs() {
     let report: serde_json::Value = serde_json::from_str(&one).expect("JSON");
     let names: Vec<&str> =
         report["conditions"].as_array().expect("a list").iter().filter_map(|c| c["name"].as_str()).collect();
-    assert!(names.contains(&"no localization") && names.contains(&"first pair only"), "{names:?}");
+    assert!(names.contains(&"no localization") && names.contains(&"no glance, first pair only"), "{names:?}");
     assert_eq!(report["conditions"][0]["all"]["collisions"], 0);
 }
 
@@ -183,4 +183,14 @@ fn robustness_is_told_as_a_table_and_the_same_for_any_number_of_jobs() {
     assert_eq!((&scores["kept"]["trials"], &scores["gold"]["trials"]), (&3.into(), &1.into()));
     let text = run("evaluate", &[&arguments[..], &["--format", "text"]].concat(), "").expect_code(0).out;
     assert!(text.contains("placements that keep the relations") && text.contains("collisions"), "{text}");
+}
+
+#[test]
+fn what_would_be_ignored_or_overwritten_is_said_before_the_work_begins() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let gold = few(folder.path());
+    let ran = run("evaluate", &["paper", &gold], "").expect_code(2);
+    assert!(ran.err.contains("few.jsonl: this subcommand takes no FILE") && ran.err.contains("--gold"), "{}", ran.err);
+    let ran = run("evaluate", &["paper", "-o", &gold, "--gold", "/no/such/file"], "").expect_code(2);
+    assert!(ran.err.contains("few.jsonl exists"), "{}", ran.err);
 }

@@ -5,9 +5,16 @@ mod common;
 
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Write};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::sync::OnceLock;
 
 use common::{executable, pipe, run};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use spatial_fetch::geometry::Pose;
+use spatial_fetch::world::camera::{Camera, Kinect, SolidScene};
+use spatial_fetch::world::{RoomMap, Scene};
 
 /// Each filter with a record that it takes.
 fn filters() -> Vec<(&'static str, String)> {
@@ -16,7 +23,66 @@ fn filters() -> Vec<(&'static str, String)> {
     let grounded = pipe(&["ground"], &chunked);
     let planned = pipe(&["plan"], &grounded);
     let shapes = r#"{"a":{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]]]},"b":{"type":"Polygon","coordinates":[[[3,0],[4,0],[4,1],[3,0]]]}}"#;
-    vec![("chunk", text), ("ground", chunked), ("plan", grounded), ("drive", planned), ("hof", format!("{shapes}\n"))]
+    vec![
+        ("chunk", text),
+        ("ground", chunked),
+        ("plan", grounded),
+        ("drive", planned),
+        ("hof", format!("{shapes}\n")),
+        ("perceive", frame_line()),
+    ]
+}
+
+/// A line that names one rendered frame.
+fn frame_line() -> String {
+    static FOLDER: OnceLock<tempfile::TempDir> = OnceLock::new();
+    let folder = FOLDER.get_or_init(|| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let solids = SolidScene::new(&RoomMap::apartment(), &Scene::apartment());
+        let kinect = Kinect { camera: Camera::kinect().coarser(4), ..Kinect::default() };
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        let (frame, _) = kinect.capture(&solids, Pose::new(3.0, 2.0, 0.4), &mut rng);
+        std::fs::write(folder.path().join("depth.png"), frame.depth_png()).expect("written");
+        std::fs::write(folder.path().join("rgb.png"), frame.color_png()).expect("written");
+        let k = frame.intrinsics;
+        let line = serde_json::json!({
+            "depth": folder.path().join("depth.png"), "rgb": folder.path().join("rgb.png"),
+            "fx": k.fx, "fy": k.fy, "cx": k.cx, "cy": k.cy, "depth_unit_m": 0.001, "T_world_cam": frame.world_from_camera,
+        });
+        std::fs::write(folder.path().join("frames.jsonl"), format!("{line}\n")).expect("written");
+        folder
+    });
+    std::fs::read_to_string(folder.path().join("frames.jsonl")).expect("readable")
+}
+
+/// The quick subcommands of `evaluate` with what they need: each writes something.
+fn experiments(folder: &Path) -> Vec<Vec<String>> {
+    let file = |name: &str, text: &str| {
+        let path = folder.join(name);
+        std::fs::write(&path, text).expect("written");
+        path.display().to_string()
+    };
+    let corpus = include_str!("../corpus/templates.jsonl");
+    let gold = file("gold.jsonl", corpus.lines().next().unwrap_or_default());
+    let driven = file("driven.jsonl", &pipe(&["chunk", "ground", "plan", "drive"], "the mug is on the table\n"));
+    let scores = file("scores.json", &run("evaluate", &["score", "--gold", &gold, &driven], "").out);
+    let fixture = |name: &str| format!("{}/fixtures/import/{name}", env!("CARGO_MANIFEST_DIR"));
+    let words = |line: &str| line.split(' ').map(str::to_string).collect::<Vec<String>>();
+    vec![
+        words(&format!("score --gold {gold} {driven}")),
+        words(&format!("merge {scores}")),
+        words(&format!("compare {driven} {driven}")),
+        words(&format!("chunking {gold}")),
+        words(&format!("grounding {gold}")),
+        words(&format!("import {}", fixture("treebank.xml"))),
+        words(&format!("run --gold {gold}")),
+        words(&format!("paper --seeds 1 --gold {gold}")),
+        words(&format!("blame --gold {gold}")),
+        words(&format!("behavior --seeds 1 --gold {gold}")),
+        words("robustness --placements 1 --no-homes"),
+        words("scene --keep"),
+        [words("what-if --piece couch-1 --text"), vec!["the mug is on the table".to_string()]].concat(),
+    ]
 }
 
 fn start(name: &str, arguments: &[&str], out: impl Into<Stdio>) -> Child {
@@ -51,9 +117,20 @@ fn a_full_disk_behind_standard_output_is_said_by_each() {
         assert_eq!(code, Some(1), "{name}: {said}");
         assert!(said.contains("standard output: the disk is full"), "{name}: {said}");
     }
-    let full = OpenOptions::new().write(true).open("/dev/full").expect("a full disk");
-    let (code, said) = finish(start("evaluate", &["run"], full), "");
-    assert!(code == Some(1) && said.contains("the disk is full"), "{said}");
+    let folder = tempfile::tempdir().expect("a folder");
+    for arguments in experiments(folder.path()) {
+        let full = OpenOptions::new().write(true).open("/dev/full").expect("a full disk");
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        let (code, said) = finish(start("evaluate", &arguments, full), "");
+        assert!(code == Some(1) && said.contains("the disk is full"), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
+fn a_log_on_a_full_disk_is_said() {
+    let planned = pipe(&["chunk", "ground", "plan"], "the mug is on the table\n");
+    let ran = run("drive", &["--record", "/dev/full"], planned).expect_code(1);
+    assert!(ran.err.contains("/dev/full: the disk is full; free space"), "{}", ran.err);
 }
 
 #[test]
@@ -61,6 +138,27 @@ fn an_output_that_cannot_be_made_is_named_before_any_work() {
     for (name, input) in filters() {
         let ran = run(name, &["-o", "/proc/no-such-folder/out.jsonl"], &input).expect_code(1);
         assert!(ran.err.contains("/proc/no-such-folder/out.jsonl: "), "{name}: {}", ran.err);
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    for arguments in experiments(folder.path()) {
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).chain(["-o", "/proc/out.json"]).collect();
+        let ran = run("evaluate", &arguments, "").expect_code(1);
+        assert!(ran.err.contains("/proc/out.json: "), "{arguments:?}: {}", ran.err);
+    }
+}
+
+#[test]
+fn what_is_left_beside_the_records_is_named_when_it_cannot_be_made() {
+    let planned = pipe(&["chunk", "ground", "plan"], "the mug is on the table\n");
+    for option in ["--record", "--plot", "--picture"] {
+        let ran = run("drive", &[option, "/proc/left"], &planned).expect_code(1);
+        assert!(ran.err.contains("/proc/left"), "{option}: {}", ran.err);
+    }
+    let ran = run("perceive", &["--overlay", "/proc/left"], frame_line()).expect_code(1);
+    assert!(ran.err.contains("/proc/left"), "{}", ran.err);
+    for arguments in [["frames", "--count", "1"], ["train", "--count", "1"]] {
+        let ran = run("evaluate", &[&arguments[..], &["-o", "/proc/left"]].concat(), "").expect_code(1);
+        assert!(ran.err.contains("/proc/left"), "{arguments:?}: {}", ran.err);
     }
 }
 
@@ -70,6 +168,13 @@ fn a_closed_pipe_ends_each_quietly() {
         let mut child = start(name, &[], Stdio::piped());
         drop(child.stdout.take());
         assert_eq!(finish(child, &input.repeat(3)), (Some(0), String::new()), "{name}");
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    for arguments in experiments(folder.path()) {
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        let mut child = start("evaluate", &arguments, Stdio::piped());
+        drop(child.stdout.take());
+        assert_eq!(finish(child, "").0, Some(0), "{arguments:?}");
     }
 }
 
@@ -102,6 +207,25 @@ fn a_run_that_ends_early_leaves_nothing_half_written() {
     let files = [good.to_str().expect("UTF-8"), "no/such/file", "-o", path.to_str().expect("UTF-8")];
     run("chunk", &files, "").expect_code(1);
     assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), 1);
+}
+
+#[test]
+fn interrupted_pictures_are_whole_or_not_there() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let arguments = ["frames", "--count", "5000", "-o", folder.path().to_str().expect("UTF-8")];
+    let child = start("evaluate", &arguments, Stdio::null());
+    let pictures = || std::fs::read_dir(folder.path()).expect("readable").count();
+    while pictures() < 9 {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    interrupt(&child);
+    assert_eq!(finish(child, "").0, Some(130));
+    for entry in std::fs::read_dir(folder.path()).expect("readable") {
+        let path = entry.expect("readable").path();
+        assert!(path.extension().is_some_and(|end| end == "png"), "{} was left", path.display());
+        let bytes = std::fs::read(&path).expect("readable");
+        assert!(bytes.ends_with(b"IEND\xaeB`\x82"), "{} is cut", path.display());
+    }
 }
 
 #[test]

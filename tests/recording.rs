@@ -160,30 +160,87 @@ fn odometry_times(log: &Path) -> Vec<f64> {
 fn a_trial_that_was_killed_leaves_everything_but_the_last_second() {
     let folder = tempfile::tempdir().expect("a folder");
     let log = folder.path().join("killed.mcap");
-    let planned = pipe(&["chunk", "ground", "plan"], SENTENCE);
+    let chunked = pipe(&["chunk"], SENTENCE);
     let plan = folder.path().join("plan.jsonl");
-    std::fs::write(&plan, planned).expect("written");
+    std::fs::write(&plan, pipe(&["ground", "plan"], &chunked)).expect("written");
     let whole = folder.path().join("whole.mcap");
     run("drive", &["--record", whole.to_str().expect("UTF-8"), plan.to_str().expect("UTF-8")], "").expect_code(0);
     let all = odometry_times(&whole);
-    // The log grows while the trial goes on: it is killed once so many bytes of it are there.
-    for bytes in [20_000, 50_000, 100_000] {
-        let mut drive = Command::new(executable("drive"))
-            .args(["--force", "--record"])
-            .args([&log, &plan])
-            .stdout(Stdio::null())
-            .spawn()
-            .expect("starts");
-        while std::fs::metadata(&log).map_or(0, |found| found.len()) < bytes {
-            if drive.try_wait().expect("waits").is_some() {
-                break;
-            }
-        }
-        let _ = drive.kill();
-        drive.wait().expect("ends");
+    let whole = std::fs::read(whole).expect("readable");
+    // The log grows while the trial goes on: it is killed once so much of it is there.
+    for tenth in 1..=10 {
+        killed_at(whole.len() as u64 * tenth / 11, &log, &plan);
+        let left = std::fs::read(&log).expect("readable");
+        assert_eq!(left, whole[..left.len()], "killed after {tenth} parts of 11: not the beginning of the whole log");
         let times = odometry_times(&log);
-        // No gap: what is there is the beginning of the whole, whatever the moment.
-        assert!(!times.is_empty() && times == all[..times.len()], "killed at {bytes} bytes");
-        let _ = std::fs::remove_file(&log);
+        assert!(times == all[..times.len()], "killed after {tenth} parts of 11: a gap");
+        let again = run("chunk", &["--from", log.to_str().expect("UTF-8"), "--recover"], "");
+        assert!([0, 3].contains(&again.code) && again.out == chunked, "killed after {tenth} parts of 11: {again:?}");
     }
+}
+
+#[test]
+fn what_the_camera_showed_is_perceived_again_from_the_log() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let log = folder.path().join("camera.mcap");
+    let planned = pipe(&["chunk", "ground", "plan"], "go into the bedroom\n");
+    let arguments = ["--perception", "camera", "--time-limit", "30", "--record", log.to_str().expect("UTF-8")];
+    run("drive", &arguments, &planned).expect_code(0);
+    let detections = |line: String| -> serde_json::Value {
+        serde_json::from_str::<serde_json::Value>(&line).expect("JSON")["detections"].take()
+    };
+    let seen: Vec<_> = records(&log, "/fetch/seen").expect("a log").into_iter().map(detections).collect();
+    let again = run("perceive", &["--map", "apartment", log.to_str().expect("UTF-8")], "").expect_code(0);
+    let again: Vec<_> = again.out.lines().map(str::to_string).map(detections).collect();
+    assert!(seen.len() > 3 && again == seen, "{again:?} instead of {seen:?}");
+}
+
+#[test]
+fn at_no_moment_is_more_than_a_second_missing_from_the_log() {
+    let recorded = recorded();
+    let whole = std::fs::read(&recorded.log).expect("readable");
+    let cut = Path::new(&recorded.log).with_extension("cut");
+    let mut last = 0.0;
+    for length in (1..=1000).map(|part| whole.len() * part / 1000) {
+        std::fs::write(&cut, &whole[..length]).expect("written");
+        let reached = odometry_times(&cut).last().copied().unwrap_or(0.0);
+        // The trial's first second may be shorter or longer by a control period.
+        assert!((0.0..=1.1).contains(&(reached - last)), "from {last} s to {reached} s at once");
+        last = reached;
+    }
+}
+
+/// Records a trial and kills it as soon as its log has so many bytes.
+fn killed_at(bytes: u64, log: &Path, plan: &Path) {
+    let mut drive = Command::new(executable("drive"))
+        .args(["--force", "--record"])
+        .args([log, plan])
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("starts");
+    while std::fs::metadata(log).map_or(0, |found| found.len()) < bytes {
+        if drive.try_wait().expect("waits").is_some() {
+            break;
+        }
+    }
+    let _ = drive.kill();
+    drive.wait().expect("ends");
+}
+
+#[test]
+fn a_replay_is_run_as_the_first_time_unless_told_otherwise() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let log = folder.path().join("trial.mcap");
+    let log = log.to_str().expect("UTF-8");
+    let first = ["--seed", "7", "--noise", "double", "--no-glance", "--world", "studio"];
+    let planned = pipe(&["chunk", "ground"], "the book is on the table\n");
+    let planned = run("plan", &["--map", "studio"], planned).expect_code(0).out;
+    let driven = run("drive", &[&first[..], &["--record", log]].concat(), &planned).expect_code(0).out;
+    let again = run("drive", &["--replay", log], "").expect_code(0);
+    assert_eq!(again.out, driven);
+    assert!(again.err.contains("as recorded: --no-glance --noise double --seed 7 --world studio"), "{}", again.err);
+    let other = run("drive", &["--replay", log, "--seed", "8"], "").expect_code(0);
+    assert_ne!(other.out, driven);
+    assert!(other.err.contains("--seed 8 instead of 7, as recorded"), "{}", other.err);
+    assert_eq!(other.out, run("drive", &[&first[..], &["--seed", "8"]].concat()[2..], &planned).expect_code(0).out);
 }

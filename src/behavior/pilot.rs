@@ -152,6 +152,7 @@ impl<'a> Pilot<'a> {
         if let Some(frame) = self.eyes.frame() {
             self.watcher.frame(time_s, self.localizer.pose(), frame);
         }
+        self.watcher.seen(time_s, &view);
         let taken_in = self.beliefs.take_in(&view, self.localizer.pose().position());
         let changed = self.doubt(&view) || taken_in;
         self.view = view;

@@ -3,6 +3,7 @@
 use super::Furniture;
 use crate::frame::RgbdFrame;
 use crate::geometry::{ClearanceGrid, Pose};
+use crate::perception::View;
 use crate::robot::MobileBase;
 
 /// Hears of everything the executive does, as it happens. Times are the robot's seconds.
@@ -11,6 +12,8 @@ pub trait Watcher {
     fn sensed(&mut self, _base: &dyn MobileBase) {}
     /// The eyes looked through a camera, and this is its frame.
     fn frame(&mut self, _time_s: f64, _believed: Pose, _frame: &RgbdFrame) {}
+    /// What the eyes made of a look.
+    fn seen(&mut self, _time_s: f64, _view: &View) {}
     /// The grid on which ways are planned has changed.
     fn grid(&mut self, _time_s: f64, _grid: &ClearanceGrid) {}
     /// A decision or an event, with its reason.

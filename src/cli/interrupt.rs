@@ -5,6 +5,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
 use super::exit::INTERRUPTED;
+use crate::files;
 
 type Action = Box<dyn FnOnce() + Send>;
 
@@ -42,5 +43,6 @@ fn stop() {
             action();
         }
     }
+    files::end_writing();
     std::process::exit(i32::from(INTERRUPTED));
 }

@@ -45,7 +45,7 @@ pub use labelled::{LabelledChunk, LabelledTree, TreeError, parse_tree};
 pub use meaning_gold::with_texts;
 pub use merge::{merge_scores, only_with_records};
 pub use model::training_record;
-pub use paper::{Case, Cell, Column, Paper, PaperTable, Row, Source, paper, paper_csv, paper_text};
+pub use paper::{Case, Cell, Column, Experiments, Paper, PaperTable, Row, Source, paper_csv, paper_text};
 pub use pipeline::{Pipeline, Understood};
 pub use report::write_report;
 pub use score::{Group, Scores, run_corpus, score};

@@ -36,7 +36,7 @@ impl ClearanceGrid {
 
     /// Adds a wall.
     pub fn add_segment(&mut self, a: Vec2, b: Vec2) {
-        self.lower(a.inf(&b), a.sup(&b), |point| distance_to_segment(point, a, b));
+        self.lower(a.inf(&b), a.sup(&b), |point, _| distance_to_segment(point, a, b));
     }
 
     /// Adds something solid.
@@ -48,17 +48,26 @@ impl ClearanceGrid {
     pub fn add_about(&mut self, polygon: &Polygon, margin_m: f64) {
         let (low, high) = polygon.bounds();
         let margin = Vec2::repeat(margin_m);
-        self.lower(low - margin, high + margin, |point| (polygon.distance_to(point) - margin_m).max(0.0));
+        self.lower(low - margin, high + margin, |point, beyond| {
+            let distance = if beyond { polygon.distance_to_border(point) } else { polygon.distance_to(point) };
+            (distance - margin_m).max(0.0)
+        });
     }
 
-    fn lower(&mut self, low: Vec2, high: Vec2, distance: impl Fn(Vec2) -> f64) {
+    /// `distance` is told whether the point lies beyond the box from `low` to `high`, that holds the obstacle.
+    fn lower(&mut self, low: Vec2, high: Vec2, distance: impl Fn(Vec2, bool) -> f64) {
         let reach = Vec2::repeat(self.reach_m);
         let (first, last) = (self.cell(low - reach), self.cell(high + reach));
         for y in first.1.max(0)..=last.1.min(self.height as i32 - 1) {
             for x in first.0.max(0)..=last.0.min(self.width as i32 - 1) {
-                let near = distance(self.centre((x, y))) as f32;
+                let centre = self.centre((x, y));
                 let cell = &mut self.clearance[y as usize * self.width + x as usize];
-                *cell = cell.min(near);
+                // What is farther than what the cell knows already need not be measured.
+                let to_box = (low - centre).sup(&(centre - high)).sup(&Vec2::zeros()).norm_squared();
+                let known = f64::from(*cell) + 1e-6;
+                if to_box < known * known {
+                    *cell = cell.min(distance(centre, to_box > 1e-12) as f32);
+                }
             }
         }
     }

@@ -25,10 +25,22 @@ pub fn cross(a: Vec2, b: Vec2) -> f64 {
 
 /// Distance from `point` to the segment `a`–`b`.
 pub fn distance_to_segment(point: Vec2, a: Vec2, b: Vec2) -> f64 {
+    squared_distance_to_segment(point, a, b).sqrt()
+}
+
+fn squared_distance_to_segment(point: Vec2, a: Vec2, b: Vec2) -> f64 {
     let along = b - a;
     let length_squared = along.norm_squared();
-    let t = if length_squared == 0.0 { 0.0 } else { ((point - a).dot(&along) / length_squared).clamp(0.0, 1.0) };
-    (point - (a + along * t)).norm()
+    let reached = (point - a).dot(&along);
+    // Most points lie beyond an end: no division for them.
+    let t = if reached <= 0.0 || length_squared == 0.0 {
+        0.0
+    } else if reached >= length_squared {
+        1.0
+    } else {
+        reached / length_squared
+    };
+    (point - (a + along * t)).norm_squared()
 }
 
 /// Whether two closed segments share a point.
@@ -48,6 +60,7 @@ pub fn segment_distance(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> f64 {
     }
     [(a, c, d), (b, c, d), (c, a, b), (d, a, b)]
         .iter()
-        .map(|&(p, s, e)| distance_to_segment(p, s, e))
+        .map(|&(p, s, e)| squared_distance_to_segment(p, s, e))
         .fold(f64::INFINITY, f64::min)
+        .sqrt()
 }

@@ -1,6 +1,11 @@
 //! Simple polygons without holes: footprints and room outlines.
 
-use super::{Pose, Vec2, cross, distance_to_segment, segment_distance, segments_touch, vec2};
+use super::{
+    Pose, Vec2, cross, distance_to_segment, segment_distance, segments_touch, squared_distance_to_segment, vec2,
+};
+
+/// A point so near to an edge lies on it, metres.
+const BORDER_M: f64 = 1e-9;
 
 /// A simple polygon, counter-clockwise, its last corner joined to the first.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,7 +66,7 @@ impl Polygon {
     /// The edges as pairs of corners, counter-clockwise.
     pub fn edges(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
         let n = self.corners.len();
-        (0..n).map(move |i| (self.corners[i], self.corners[(i + 1) % n]))
+        (0..n).map(move |i| (self.corners[i], self.corners[if i + 1 == n { 0 } else { i + 1 }]))
     }
 
     /// Square metres.
@@ -86,13 +91,18 @@ impl Polygon {
 
     /// Whether `point` lies inside or on the border.
     pub fn contains(&self, point: Vec2) -> bool {
+        self.surrounds(point) || self.edges().any(|(a, b)| distance_to_segment(point, a, b) < BORDER_M)
+    }
+
+    /// By the parity of crossings; on the border either may come out.
+    fn surrounds(&self, point: Vec2) -> bool {
         let mut inside = false;
         for (a, b) in self.edges() {
             if (a.y > point.y) != (b.y > point.y) && point.x < (b.x - a.x) * (point.y - a.y) / (b.y - a.y) + a.x {
                 inside = !inside;
             }
         }
-        inside || self.edges().any(|(a, b)| distance_to_segment(point, a, b) < 1e-9)
+        inside
     }
 
     /// Whether the two share a point.
@@ -135,10 +145,17 @@ impl Polygon {
 
     /// Metres from the area to `point`, zero inside.
     pub fn distance_to(&self, point: Vec2) -> f64 {
-        if self.contains(point) {
+        if self.surrounds(point) {
             return 0.0;
         }
-        self.edges().map(|(a, b)| distance_to_segment(point, a, b)).fold(f64::INFINITY, f64::min)
+        let nearest = self.distance_to_border(point);
+        if nearest < BORDER_M { 0.0 } else { nearest }
+    }
+
+    /// Metres from the border to `point`, inside as outside.
+    pub(super) fn distance_to_border(&self, point: Vec2) -> f64 {
+        let squares = self.edges().map(|(a, b)| squared_distance_to_segment(point, a, b));
+        squares.fold(f64::INFINITY, f64::min).sqrt()
     }
 }
 

@@ -1,6 +1,6 @@
 //! The words the robot knows: data in `corpus/lexicon/`, one line a word.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -42,6 +42,8 @@ pub struct Lexicon {
     starts: HashMap<String, usize>,
     /// What a word that is written otherwise means.
     spellings: HashMap<String, String>,
+    /// What looks like a misspelt noun and is none.
+    apart: HashSet<String>,
 }
 
 impl Lexicon {
@@ -54,6 +56,8 @@ impl Lexicon {
             let _ = lexicon.add_nouns(include_str!("../../corpus/lexicon/nouns.tsv"), "nouns.tsv");
             let _ = lexicon.add_words(include_str!("../../corpus/lexicon/words.tsv"), "words.tsv");
             let _ = lexicon.add_spellings(include_str!("../../corpus/lexicon/spellings.tsv"), "spellings.tsv");
+            lexicon.apart =
+                lines(include_str!("../../corpus/lexicon/apart.txt")).map(|(_, word)| word.concat()).collect();
             lexicon
         })
     }
@@ -170,7 +174,8 @@ impl Lexicon {
     pub fn nearest_noun(&self, word: &str) -> Option<&Noun> {
         let most = if word.chars().count() < LETTERS_FOR_TWO_EDITS { 1 } else { 2 };
         let first = word.chars().next()?;
-        if word.chars().count() < LETTERS_FOR_ONE_EDIT || !word.chars().all(char::is_alphabetic) {
+        let too_short = word.chars().count() < LETTERS_FOR_ONE_EDIT;
+        if too_short || !word.chars().all(char::is_alphabetic) || self.apart.contains(word) {
             return None;
         }
         let near = self.names.keys().filter(|name| name.starts_with(first) && name.len().abs_diff(word.len()) <= most);
@@ -238,6 +243,16 @@ mod tests {
         assert_eq!(lexicon.class_of("coffee_table"), Some(Class::TableLike));
         assert_eq!(lexicon.class_of("drum_table"), Some(Class::TableLike));
         assert_eq!(lexicon.class_of("xyzzy"), None);
+    }
+
+    #[test]
+    fn a_word_that_names_something_else_is_no_misspelling() {
+        let lexicon = Lexicon::embedded();
+        let nearest = |word| lexicon.nearest_noun(word).map(|noun| noun.name.as_str());
+        assert_eq!([nearest("laddder"), nearest("larder")], [Some("ladder"), None]);
+        for word in &lexicon.apart {
+            assert!(lexicon.noun(word).is_none() && lexicon.word(word).is_none(), "`{word}` is a word of the lexicon");
+        }
     }
 
     #[test]

@@ -166,6 +166,11 @@ impl TrialLog {
         self.put(|log| write_pictures(log, frame));
     }
 
+    /// What the eyes made of a look, one JSON line.
+    pub fn seen(&mut self, time_s: f64, line: &str) {
+        self.put(|log| log.json("/fetch/seen", "spatial_fetch.Seen", SEEN_SCHEMA, nanoseconds(time_s), line));
+    }
+
     /// The last picture, as PNG.
     pub fn picture(&mut self, time_s: f64, png: Vec<u8>) {
         let time_ns = nanoseconds(time_s);
@@ -186,6 +191,11 @@ impl TrialLog {
         self.put(LogWriter::flush);
     }
 
+    /// The options of the run, one JSON line.
+    pub fn options(&mut self, topic: &str, line: &str) {
+        self.put(|log| log.json(topic, "spatial_fetch.Options", OPTIONS_SCHEMA, 0, line));
+    }
+
     /// Ends the log; tells of any write that failed on the way.
     pub fn finish(mut self, time_s: f64) -> Result<(), LogError> {
         self.flush(time_s);
@@ -196,6 +206,10 @@ impl TrialLog {
         finished.map_err(|error| error.named(&self.name))
     }
 }
+
+const SEEN_SCHEMA: &str = r#"{"type":"object","properties":{"detections":{"type":"array","items":{"type":"object"}}}}"#;
+
+const OPTIONS_SCHEMA: &str = r#"{"type":"object","properties":{"options":{"type":"array","items":{"type":"string"}}}}"#;
 
 const VELOCITY_SCHEMA: &str =
     r#"{"type":"object","properties":{"linear_m_s":{"type":"number"},"angular_rad_s":{"type":"number"}}}"#;

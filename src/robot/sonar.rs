@@ -5,7 +5,7 @@
 //! (Leonard & Durrant-Whyte, "Directed Sonar Sensing for Mobile Robot
 //! Navigation", 1992).
 
-use crate::geometry::{Vec2, cross};
+use crate::geometry::{Vec2, cross, distance_to_segment};
 
 /// Half of a Polaroid transducer's main lobe, radians.
 pub const HALF_CONE_RAD: f64 = 0.26;
@@ -44,6 +44,11 @@ pub fn echo(surfaces: &[Segment], origin: Vec2, axis: Vec2, reach_m: f64) -> Opt
 
 /// The nearest point of one surface that sends sound back, nearer than `reach_m`.
 pub fn surface_echo((a, b): Segment, origin: Vec2, axis: Vec2, reach_m: f64) -> Option<Echo> {
+    // Most surfaces lie beside the cone or too far away: no angles need be taken for them. Where two share a corner,
+    // rounding shall not decide here.
+    if is_outside_cone(a - origin, b - origin, axis) || distance_to_segment(origin, a, b) > reach_m + 1e-6 {
+        return None;
+    }
     let along = b - a;
     let length = along.norm();
     let (from_a, along) = (a - origin, along / length.max(1e-12));
@@ -70,6 +75,16 @@ pub fn surface_echo((a, b): Segment, origin: Vec2, axis: Vec2, reach_m: f64) -> 
     }
     let ends = [first_angle, last_angle].into_iter().filter(|end| (low..=high).contains(end));
     ends.min_by(|a, b| a.abs().total_cmp(&b.abs())).and_then(|end| at(end, true))
+}
+
+/// Whether a surface with these ends, seen from the sonar, lies wholly beside the cone.
+fn is_outside_cone(a: Vec2, b: Vec2, axis: Vec2) -> bool {
+    // A little wider than the cone, so that rounding decides nothing.
+    let (sin, cos) = (HALF_CONE_RAD.sin() + 1e-6, HALF_CONE_RAD.cos());
+    let beside = |off: f64, along: f64| off * cos > along * sin;
+    let (off_a, off_b) = (cross(axis, a), cross(axis, b));
+    let (along_a, along_b) = (a.dot(&axis), b.dot(&axis));
+    (beside(off_a, along_a) && beside(off_b, along_b)) || (beside(-off_a, along_a) && beside(-off_b, along_b))
 }
 
 /// Whether a surface stands between the sonar and the echo.

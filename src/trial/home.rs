@@ -3,19 +3,26 @@
 use std::path::Path;
 use std::rc::Rc;
 
+use super::judge::ShortestWays;
 use crate::world::camera::Camera;
 use crate::world::{RoomMap, SHIPPED_HOMES, Scene, WorldError, load_map, load_world};
 
-/// A room map with the scene on it.
+/// A room map with the scene on it. For other rooms or furniture make another: its shortest ways are kept.
 #[derive(Clone, Debug)]
 pub struct Home {
     /// What the robot knows.
     pub map: RoomMap,
     /// What is true.
     pub scene: Scene,
+    pub(super) ways: ShortestWays,
 }
 
 impl Home {
+    /// A scene on the map it was made for.
+    pub fn new(map: RoomMap, scene: Scene) -> Self {
+        Self { map, scene, ways: ShortestWays::default() }
+    }
+
     /// A shipped home by its name, or a scene file with the map it leads to; the apartment where none is named.
     ///
     /// `map` stands in for the room map of a scene file that leads to none.
@@ -29,7 +36,7 @@ impl Home {
             (None, Some(world)) => load_world(world)?,
             (_, None) => SHIPPED_HOMES[0].load()?,
         };
-        Ok(Self { map, scene })
+        Ok(Self::new(map, scene))
     }
 
     /// A home of which only the rooms are known: where a real robot drives.
@@ -44,7 +51,7 @@ impl Home {
             noise: None,
             camera: None,
         };
-        Self { map, scene }
+        Self::new(map, scene)
     }
 
     /// The simulated robot's camera.

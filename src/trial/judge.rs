@@ -1,5 +1,8 @@
 //! What a trial was worth, by the truth.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
 use super::Home;
 use crate::behavior::{Beliefs, Furniture, SWING_M, grid_of, length, route, viewpoints};
 use crate::geometry::Vec2;
@@ -37,7 +40,7 @@ pub fn judge(
         holders.iter().any(|item| Some(&item.id) == first.as_ref())
     });
     let approached: Vec<String> = approached.iter().filter_map(id_at).collect();
-    let shortest = holders.iter().filter_map(|item| shortest_way(home, item)).fold(f64::INFINITY, f64::min);
+    let shortest = holders.iter().filter_map(|item| home.ways.to(home, item)).fold(f64::INFINITY, f64::min);
     let spl = if outcome == Outcome::Found && shortest.is_finite() {
         Some(shortest / shortest.max(distance_m).max(1e-9))
     } else {
@@ -52,6 +55,29 @@ fn holders<'h>(home: &'h Home, object: Option<&str>) -> Vec<&'h Item> {
     match object {
         Some(name) => home.scene.holders_of(name),
         None => home.scene.objects.iter().filter_map(|object| home.scene.item(&object.on)).collect(),
+    }
+}
+
+/// The shortest ways in one home that were asked for already: many trials are judged by the same.
+#[derive(Debug, Default)]
+pub(super) struct ShortestWays(Mutex<BTreeMap<String, Option<f64>>>);
+
+impl ShortestWays {
+    fn to(&self, home: &Home, item: &Item) -> Option<f64> {
+        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(way) = known().get(&item.id) {
+            return *way;
+        }
+        let way = shortest_way(home, item);
+        known().insert(item.id.clone(), way);
+        way
+    }
+}
+
+impl Clone for ShortestWays {
+    /// A copy of a home is made to be changed: nothing is known of it.
+    fn clone(&self) -> Self {
+        Self::default()
     }
 }
 

@@ -25,6 +25,7 @@ pub use home::Home;
 pub use judge::ideal_detection;
 pub use outputs::Outputs;
 pub use real::{Interrupter, RealDriver};
+pub use recorder::OPTIONS_TOPIC;
 pub use run::{Run, run};
 pub use served::{Served, ServingStop, served_until_interrupted};
 pub use settings::{NoiseLevel, Perception, Settings, stream_of};

@@ -21,6 +21,8 @@ pub struct Outputs {
     pub record: Option<PathBuf>,
     /// Overwrite files that exist.
     pub force: bool,
+    /// How the trial is run, for the log: a JSON line, or nothing.
+    pub options: String,
 }
 
 impl Outputs {

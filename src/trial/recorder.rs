@@ -2,17 +2,29 @@
 
 use std::path::Path;
 
+use serde::Serialize;
+
 use super::{Home, Run, Settings};
 use crate::behavior::{Furniture, Watcher, grid_of};
 use crate::frame::RgbdFrame;
 use crate::geometry::{ClearanceGrid, Pose, vec2};
-use crate::record::Record;
+use crate::perception::View;
+use crate::record::{Detection, Record};
 use crate::recording::{LogError, Piece, TimedFrame, TrialLog};
 use crate::robot::{MobileBase, p3dx};
 
 /// The keys the stages add, in their order, under the stage's name.
 const STAGES: [(&str, &[&str]); 4] =
     [("chunk", &["tokens", "chunks"]), ("ground", &["grounding"]), ("plan", &["plan"]), ("drive", &["trial"])];
+
+/// A look, as `perceive` tells it of a frame.
+#[derive(Serialize)]
+struct Seen<'v> {
+    detections: &'v [Detection],
+}
+
+/// Where a log says with which options its trial was run.
+pub const OPTIONS_TOPIC: &str = "/fetch/options";
 
 /// Writes what the executive does, as it happens.
 pub(super) struct Recorder {
@@ -56,6 +68,13 @@ impl Recorder {
         self.log.has_failed()
     }
 
+    /// How the trial is run, as options of the command line, for a replay.
+    pub(super) fn options(&mut self, line: &str) {
+        if !line.is_empty() {
+            self.log.options(OPTIONS_TOPIC, line);
+        }
+    }
+
     /// Ends the log with the last picture and the record as `drive` writes it.
     pub(super) fn finish(mut self, run: &Run, picture: Vec<u8>, record: &str) -> Result<(), LogError> {
         let end = run.trial.duration_s.0;
@@ -94,6 +113,12 @@ impl Watcher for Recorder {
 
     fn frame(&mut self, time_s: f64, believed: Pose, frame: &RgbdFrame) {
         self.log.frame(&TimedFrame::at(time_s, Some(believed), frame.clone()));
+    }
+
+    fn seen(&mut self, time_s: f64, view: &View) {
+        let seen = Seen { detections: &view.furniture };
+        // Our own records always serialize.
+        self.log.seen(time_s, &serde_json::to_string(&seen).unwrap_or_default());
     }
 
     fn grid(&mut self, time_s: f64, grid: &ClearanceGrid) {

@@ -31,6 +31,7 @@ impl Driver {
         let failed = |error: LogError| StageError::new(error.to_string());
         let force = self.outputs.force;
         let mut recorder = Recorder::new(&path, force, &self.home, &self.settings, record).map_err(failed)?;
+        recorder.options(&self.outputs.options);
         let mut run = run(&self.home, plan, &self.settings, stream_of(id), &mut recorder);
         self.leave(&mut run, record, id)?;
         record.set("trial", &run.trial);

@@ -2,6 +2,7 @@
 
 mod executive;
 mod outputs;
+mod replay;
 mod robot;
 
 use std::process::ExitCode;
@@ -54,8 +55,24 @@ impl Program for Arguments {
         !self.robot.serves() && self.log.from.is_none() && self.common.files.is_empty()
     }
     fn run(self) -> Result<Exit, Failure> {
-        let home = self.home()?;
         let reporter = Reporter::new(Self::NAME, &self.common);
+        let arguments = self.as_recorded(&reporter)?;
+        arguments.drive(reporter)
+    }
+}
+
+impl Arguments {
+    /// With the options of the log that is replayed, where none were given.
+    fn as_recorded(self, reporter: &Reporter) -> Result<Self, Failure> {
+        // What comes through a pipe is read once.
+        let Some(log) = self.log.from.as_ref().filter(|log| log.is_file()) else { return Ok(self) };
+        let Some(replay) = replay::replay(log)? else { return Ok(self) };
+        replay.remarks.iter().for_each(|remark| reporter.remark(remark));
+        Ok(replay.arguments)
+    }
+
+    fn drive(self, reporter: Reporter) -> Result<Exit, Failure> {
+        let home = self.home()?;
         if self.robot.serves() {
             return self.robot.run_served(&home, &reporter, self.common.seed);
         }
@@ -66,7 +83,7 @@ impl Program for Arguments {
             noise: self.noise,
             seed: self.common.seed,
         };
-        let outputs = self.outputs.outputs(self.common.force);
+        let outputs = self.outputs.outputs(self.common.force, replay::recorded_line()?);
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
         let (driver, common): (Box<dyn Stage>, Common) = if self.robot.is_real() {
             // One robot, one plan at a time.
@@ -79,9 +96,7 @@ impl Program for Arguments {
         };
         cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, driver.as_ref())
     }
-}
 
-impl Arguments {
     /// What is known of where the robot is: of a real one, the rooms alone.
     fn home(&self) -> Result<Home, Failure> {
         if self.robot.is_real() && !self.robot.serves() {

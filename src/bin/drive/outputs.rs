@@ -20,7 +20,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    pub fn outputs(self, force: bool) -> Outputs {
-        Outputs { plot: self.plot, picture: self.picture, record: self.record, force }
+    pub fn outputs(self, force: bool, options: String) -> Outputs {
+        Outputs { plot: self.plot, picture: self.picture, record: self.record, force, options }
     }
 }

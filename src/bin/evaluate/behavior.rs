@@ -8,6 +8,8 @@ use spatial_fetch::evaluation::behavior::{Selection, Source, Study, behavior_tab
 use spatial_fetch::trial::{Home, NoiseLevel, Settings};
 use spatial_fetch::world::Scene;
 
+use crate::Command;
+
 #[derive(Args)]
 pub struct Arguments {
     /// Gold descriptions [default: the shipped templates]
@@ -36,11 +38,19 @@ pub struct Arguments {
     #[arg(long)]
     explain: bool,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn reads_files(&self) -> bool {
+        false
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let gold = cli::load_gold(self.gold.as_deref())?;
         let homes = self.homes()?;
         let instructions = instructions(&gold, &homes[0].1.map, self.instructions, self.select);
@@ -61,13 +71,15 @@ impl Arguments {
         cli::write_report(&self.common, &report, || behavior_tables(&report))?;
         Ok(Exit::Done)
     }
+}
 
+impl Arguments {
     fn homes(&self) -> Result<Vec<(&'static str, Home)>, Failure> {
         let home = self.home.load()?;
         if self.home.world.is_some() {
             return Ok(vec![("furniture of --world", home)]);
         }
-        let moved = Home { scene: Scene::apartment_modified(), ..home.clone() };
+        let moved = Home::new(home.map.clone(), Scene::apartment_modified());
         Ok(vec![("Table II: as first furnished", home), ("Table III: furniture moved", moved)])
     }
 

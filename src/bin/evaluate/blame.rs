@@ -7,6 +7,8 @@ use spatial_fetch::cli::{self, Common, Exit, Failure, HomeArguments};
 use spatial_fetch::evaluation::{Measure, Wanted, blame, blame_text};
 use spatial_fetch::trial::{Perception, Settings};
 
+use crate::Command;
+
 #[derive(Args)]
 pub struct Arguments {
     /// Gold descriptions with trees and meanings [default: the shipped templates]
@@ -27,11 +29,19 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value = "truth")]
     perception: Perception,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn reads_files(&self) -> bool {
+        false
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let gold = cli::load_gold_with(self.gold.as_deref(), self.meanings.as_deref())?;
         let home = self.home.load()?;
         let settings = Settings { perception: self.perception, seed: self.common.seed, ..Settings::default() };

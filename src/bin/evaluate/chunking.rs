@@ -4,15 +4,21 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure};
 use spatial_fetch::evaluation::{chunking_table, score_chunking};
 
+use crate::Command;
+
 /// FILEs are gold corpora; without one, the shipped templates and speech.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let corpora = cli::load_corpora(&self.common.files)?;
         let scores: Vec<_> = corpora.iter().map(|(name, gold)| score_chunking(name, gold)).collect();
         let table = || scores.iter().map(chunking_table).collect::<Vec<_>>().join("\n\n");

@@ -4,6 +4,8 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure};
 use spatial_fetch::evaluation::{Comparison, Measure, compare, comparison_text};
 
+use crate::Command;
+
 #[derive(Args)]
 #[command(override_usage = "evaluate compare [OPTIONS] A B")]
 pub struct Arguments {
@@ -17,11 +19,15 @@ pub struct Arguments {
     #[arg(long)]
     every_field: bool,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let [first, second] = self.common.files.as_slice() else {
             return Err(Failure::Usage("compare takes two result files: evaluate compare A B".to_string()));
         };
@@ -32,7 +38,9 @@ impl Arguments {
             .map_err(|error| Failure::Failed(error.to_string()))?;
         self.report(&comparison)
     }
+}
 
+impl Arguments {
     fn report(&self, comparison: &Comparison) -> Result<Exit, Failure> {
         cli::write_report(&self.common, comparison, || comparison_text(comparison))?;
         if self.fail_on_regression && comparison.regressed() {

@@ -8,6 +8,8 @@ use spatial_fetch::cli::{Common, Exit, Failure, Progress};
 use spatial_fetch::evaluation::write_training_frame;
 use spatial_fetch::files::write_file;
 
+use crate::Command;
+
 /// Frames of rooms furnished at random, seen by a simulated Kinect: colour, depth, mask, and
 /// `index.jsonl` with the truth, which is also what `perceive` reads. `--output` names the folder.
 #[derive(Args)]
@@ -16,11 +18,19 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 100)]
     count: u64,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn reads_files(&self) -> bool {
+        false
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let folder = self.common.output.as_deref().unwrap_or(Path::new("frames"));
         let failed = |error: std::io::Error| Failure::Failed(format!("{}: {error}", folder.display()));
         std::fs::create_dir_all(folder).map_err(failed)?;

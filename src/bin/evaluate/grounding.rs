@@ -7,6 +7,8 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure};
 use spatial_fetch::evaluation::{Experiment, evaluate_grounding, grounding_table};
 
+use crate::Command;
+
 /// FILEs are gold corpora; without one, the shipped templates and speech.
 #[derive(Args)]
 pub struct Arguments {
@@ -23,7 +25,7 @@ pub struct Arguments {
     #[arg(long)]
     list: bool,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
 fn share(text: &str) -> Result<f64, String> {
@@ -31,8 +33,12 @@ fn share(text: &str) -> Result<f64, String> {
     if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a share lies from 0 to 1".to_string()) }
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let mut corpora = cli::load_corpora(&self.common.files)?;
         if let Some(path) = &self.texts {
             let texts = cli::load_corpora(std::slice::from_ref(path))?;

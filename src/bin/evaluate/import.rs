@@ -6,6 +6,8 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure};
 use spatial_fetch::evaluation::import;
 
+use crate::Command;
+
 /// FILE is a treebank in XML with `S` or `Note` items. What was odd about the files is told on standard error.
 #[derive(Args)]
 pub struct Arguments {
@@ -16,11 +18,15 @@ pub struct Arguments {
     #[arg(long, value_name = "WORD", default_value = "s")]
     prefix: String,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let [treebank] = self.common.files.as_slice() else {
             return Err(Failure::Usage("name one treebank file, as in `evaluate import treebank.xml`".to_string()));
         };

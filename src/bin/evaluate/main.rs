@@ -22,6 +22,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use spatial_fetch::cli::{self, Common, Exit, Failure, Program};
 use spatial_fetch::evaluation::Scores;
+use spatial_fetch::files::refuse_existing;
 
 /// Holds what the stages say against gold: trees, groundings, trials, with counts and intervals.
 #[derive(Parser)]
@@ -72,59 +73,74 @@ enum What {
     Behavior(behavior::Arguments),
 }
 
+/// What every subcommand can do.
+trait Command {
+    /// The shared options.
+    fn common(&self) -> &Common;
+
+    /// Whether it reads the files named.
+    fn reads_files(&self) -> bool {
+        true
+    }
+
+    /// Whether it waits for standard input when no file is named.
+    fn reads_standard_input(&self) -> bool {
+        false
+    }
+
+    /// Does the work.
+    fn run(&self) -> Result<Exit, Failure>;
+}
+
+impl Arguments {
+    fn command(&self) -> &dyn Command {
+        match &self.what {
+            What::Score(arguments) => arguments,
+            What::Chunking(arguments) => arguments,
+            What::Grounding(arguments) => arguments,
+            What::Import(arguments) => arguments,
+            What::Run(arguments) => arguments,
+            What::Paper(arguments) => arguments,
+            What::Blame(arguments) => arguments,
+            What::Compare(arguments) => arguments,
+            What::Counterfactual(arguments) => arguments,
+            What::Merge(arguments) => arguments,
+            What::Robustness(arguments) => arguments,
+            What::Scene(arguments) => arguments,
+            What::Frames(arguments) => arguments,
+            What::Perception(arguments) => arguments,
+            What::Train(arguments) => arguments,
+            What::Behavior(arguments) => arguments,
+        }
+    }
+}
+
 impl Program for Arguments {
     const NAME: &'static str = "evaluate";
     fn common(&self) -> &Common {
-        match &self.what {
-            What::Score(arguments) => &arguments.common,
-            What::Chunking(arguments) => &arguments.common,
-            What::Grounding(arguments) => &arguments.common,
-            What::Import(arguments) => &arguments.common,
-            What::Run(arguments) => &arguments.common,
-            What::Paper(arguments) => &arguments.common,
-            What::Blame(arguments) => &arguments.common,
-            What::Compare(arguments) => &arguments.common,
-            What::Counterfactual(arguments) => &arguments.common,
-            What::Merge(arguments) => &arguments.common,
-            What::Robustness(arguments) => &arguments.common,
-            What::Scene(arguments) => &arguments.common,
-            What::Frames(arguments) => &arguments.common,
-            What::Perception(arguments) => &arguments.common,
-            What::Train(arguments) => &arguments.common,
-            What::Behavior(arguments) => &arguments.common,
-        }
+        self.command().common()
     }
     fn schema() -> schemars::Schema {
         schemars::schema_for!(Scores)
     }
     fn reads_standard_input(&self) -> bool {
-        match &self.what {
-            What::Score(arguments) => arguments.common.files.is_empty(),
-            What::Merge(arguments) => arguments.common.files.is_empty(),
-            What::Counterfactual(arguments) => arguments.reads_standard_input(),
-            What::Perception(arguments) => arguments.common.files.is_empty(),
-            _ => false,
-        }
+        self.command().reads_standard_input() && self.common().files.is_empty()
     }
     fn run(self) -> Result<Exit, Failure> {
-        match self.what {
-            What::Score(arguments) => arguments.run(),
-            What::Chunking(arguments) => arguments.run(),
-            What::Grounding(arguments) => arguments.run(),
-            What::Import(arguments) => arguments.run(),
-            What::Run(arguments) => arguments.run(),
-            What::Paper(arguments) => arguments.run(),
-            What::Blame(arguments) => arguments.run(),
-            What::Compare(arguments) => arguments.run(),
-            What::Counterfactual(arguments) => arguments.run(),
-            What::Merge(arguments) => arguments.run(),
-            What::Robustness(arguments) => arguments.run(),
-            What::Scene(arguments) => arguments.run(),
-            What::Frames(arguments) => arguments.run(),
-            What::Perception(arguments) => arguments.run(),
-            What::Train(arguments) => arguments.run(),
-            What::Behavior(arguments) => arguments.run(),
+        let (command, common) = (self.command(), self.common());
+        if let Some(file) = common.files.first().filter(|_| !command.reads_files()) {
+            let message = format!(
+                "{}: this subcommand takes no FILE; what it reads is named by options, as --gold",
+                file.display()
+            );
+            return Err(Failure::Usage(message));
         }
+        if let Some(path) = &common.output {
+            refuse_existing(path, common.force)?;
+        }
+        // Whatever it does, an interrupt ends it tidily.
+        cli::on_interrupt(|| ());
+        command.run()
     }
 }
 

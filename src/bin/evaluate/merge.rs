@@ -6,17 +6,27 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Table};
 use spatial_fetch::evaluation::{Scores, merge_scores};
 
+use crate::Command;
+
 #[derive(Args)]
 pub struct Arguments {
     /// Gold descriptions of the whole run: the run fails unless the parts score just as many
     #[arg(long, value_name = "FILE")]
     gold: Option<PathBuf>,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn reads_standard_input(&self) -> bool {
+        true
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let lines = cli::read_lines(&self.common.files)?;
         let parse = |(i, line): (usize, &String)| -> Result<Scores, Failure> {
             let wrong = |error| Failure::Failed(format!("part {}: no scores of `evaluate score` ({error})", i + 1));

@@ -4,9 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Reporter};
-use spatial_fetch::evaluation::{Paper, paper, paper_csv, paper_text, write_report};
+use spatial_fetch::evaluation::{Experiments, Paper, paper_csv, paper_text, write_report};
+use spatial_fetch::files::refuse_existing;
 use spatial_fetch::trial::{Home, Perception, Settings};
 use spatial_fetch::world::{RoomMap, Scene};
+
+use crate::Command;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -26,27 +29,39 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn reads_files(&self) -> bool {
+        false
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
+        if let Some(folder) = &self.report {
+            refuse_existing(&folder.join("index.html"), self.common.force)?;
+        }
         let gold = cli::load_gold(self.gold.as_deref())?;
         let corpus = self.gold.as_ref().map_or("own templates".to_string(), |path| path.display().to_string());
         let homes =
-            [Scene::apartment(), Scene::apartment_modified()].map(|scene| Home { map: RoomMap::apartment(), scene });
+            [Scene::apartment(), Scene::apartment_modified()].map(|scene| Home::new(RoomMap::apartment(), scene));
         let settings = Settings { perception: self.perception, seed: self.common.seed, ..Settings::default() };
-        let result = cli::on_threads(self.common.jobs, || {
-            let (result, cases) = paper(&corpus, &gold, &homes, settings, self.seeds);
-            let write = |folder: &PathBuf| write_report(folder, &result, &cases, &homes, self.common.force);
-            (self.report.as_ref().map(write).transpose(), result)
-        })?;
-        if let Some(path) = result.0? {
+        let experiments = Experiments { corpus, gold: &gold, homes: &homes, settings, seeds: self.seeds };
+        let result = cli::counted_on_threads(&self.common, experiments.trials(), |done| experiments.run(done))?;
+        if let Some(folder) = &self.report {
+            let write = || write_report(folder, &result, &experiments.cases(), &homes, self.common.force);
+            let path = cli::on_threads(self.common.jobs, write)??;
             Reporter::new("evaluate", &self.common).remark(&format!("the report is {}", path.display()));
         }
-        self.write(&result.1)
+        self.write(&result)
     }
+}
 
+impl Arguments {
     fn write(&self, result: &Paper) -> Result<Exit, Failure> {
         if self.csv {
             cli::write_text(&self.common, &paper_csv(result))?;

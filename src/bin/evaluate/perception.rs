@@ -6,6 +6,8 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Format};
 use spatial_fetch::evaluation::{furniture_tables, gold_frames, score_furniture};
 
+use crate::Command;
+
 /// Scores the detections of records (as `perceive` writes them) against the frames' `items`:
 /// found, right among six kinds, right name, errors of place and heading, and what is not there.
 #[derive(Args)]
@@ -17,11 +19,19 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     subset: Option<String>,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn reads_standard_input(&self) -> bool {
+        true
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let gold = cli::read_lines(std::slice::from_ref(&self.gold))?;
         let records = cli::read_lines(&self.common.files)?;
         let frames = gold_frames(&gold, &records, self.subset.as_deref()).map_err(Failure::Failed)?;

@@ -11,6 +11,8 @@ use spatial_fetch::evaluation::robustness::{
 use spatial_fetch::trial::{Home, Settings};
 use spatial_fetch::world::arrange::Relations;
 
+use crate::Command;
+
 #[derive(Args)]
 pub struct Arguments {
     /// Random placements that keep the relations the words tell; 0 leaves the experiment out
@@ -43,16 +45,26 @@ pub struct Arguments {
     #[command(flatten)]
     eyes: EyeArguments,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn reads_files(&self) -> bool {
+        false
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let total = self.total()?;
         let robustness = cli::counted_on_threads(&self.common, total, |done| self.measure(done))??;
         cli::write_robustness(&self.common, &robustness)
     }
+}
 
+impl Arguments {
     fn measure(&self, done: &(dyn Fn() + Sync)) -> Result<Robustness, Failure> {
         let options = Options { no_glance: self.no_glance, ..Options::default() };
         let settings = Settings { options, seed: self.common.seed, ..self.eyes.settings() };

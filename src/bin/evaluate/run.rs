@@ -8,6 +8,8 @@ use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, HomeArgument
 use spatial_fetch::evaluation::{run_corpus, score};
 use spatial_fetch::trial::Settings;
 
+use crate::Command;
+
 #[derive(Args)]
 pub struct Arguments {
     /// Gold descriptions [default: the shipped templates]
@@ -21,11 +23,19 @@ pub struct Arguments {
     #[command(flatten)]
     eyes: EyeArguments,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn reads_files(&self) -> bool {
+        false
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let gold = cli::load_gold(self.gold.as_deref())?;
         let home = self.home.load()?;
         let options = Options { blind: self.blind, ..Options::default() };

@@ -8,6 +8,8 @@ use spatial_fetch::trial::Home;
 use spatial_fetch::world::arrange::{Dice, Relations, new_home, rearranged};
 use spatial_fetch::world::world_json;
 
+use crate::Command;
+
 #[derive(Args)]
 pub struct Arguments {
     /// Place the furniture elsewhere, so that what words tell of it still holds
@@ -23,21 +25,31 @@ pub struct Arguments {
     #[arg(long, value_name = "WORLD", conflicts_with = "new")]
     world: Option<PathBuf>,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn reads_files(&self) -> bool {
+        false
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let mut dice = Dice::new(self.common.seed, 0);
         let home = if self.new { self.new_home(&mut dice) } else { self.rearranged(&mut dice) }?;
         cli::write_text(&self.common, &world_json(&home.map, &home.scene))?;
         Ok(Exit::Done)
     }
+}
 
+impl Arguments {
     fn new_home(&self, dice: &mut Dice) -> Result<Home, Failure> {
         let made = new_home(&format!("home-{}", self.common.seed), dice);
         let (map, scene) = made.ok_or_else(|| none("no home that leaves the robot a way was found"))?;
-        Ok(Home { map, scene })
+        Ok(Home::new(map, scene))
     }
 
     fn rearranged(&self, dice: &mut Dice) -> Result<Home, Failure> {
@@ -47,7 +59,7 @@ impl Arguments {
         let mut scene = scene.ok_or_else(|| none("no placement that leaves the robot a way was found"))?;
         let kind = if self.r#break { "broken" } else { "kept" };
         scene.name = format!("{}-{kind}-{}", home.scene.name, self.common.seed);
-        Ok(Home { map: home.map, scene })
+        Ok(Home::new(home.map, scene))
     }
 }
 

@@ -6,6 +6,8 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Table};
 use spatial_fetch::evaluation::{only_with_records, score};
 
+use crate::Command;
+
 #[derive(Args)]
 pub struct Arguments {
     /// Gold descriptions [default: the shipped templates]
@@ -15,11 +17,19 @@ pub struct Arguments {
     #[arg(long)]
     part: bool,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    pub fn run(self) -> Result<Exit, Failure> {
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn reads_standard_input(&self) -> bool {
+        true
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let mut gold = cli::load_gold(self.gold.as_deref())?;
         let lines = cli::read_lines(&self.common.files)?;
         if self.part {

@@ -5,6 +5,8 @@ use spatial_fetch::cli::{self, Common, Exit, Failure, HomeArguments};
 use spatial_fetch::evaluation::{what_if, what_if_text};
 use spatial_fetch::trial::Settings;
 
+use crate::Command;
+
 #[derive(Args)]
 pub struct Arguments {
     /// The description
@@ -19,16 +21,19 @@ pub struct Arguments {
     #[arg(long, value_name = "ID")]
     piece: Vec<String>,
     #[command(flatten)]
-    pub common: Common,
+    common: Common,
 }
 
-impl Arguments {
-    /// Whether the description comes from standard input.
-    pub fn reads_standard_input(&self) -> bool {
-        self.text.is_none() && self.common.files.is_empty()
+impl Command for Arguments {
+    fn common(&self) -> &Common {
+        &self.common
     }
 
-    pub fn run(self) -> Result<Exit, Failure> {
+    fn reads_standard_input(&self) -> bool {
+        self.text.is_none()
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
         let (id, text) = match &self.text {
             Some(text) => ("1".to_string(), text.clone()),
             None => cli::find_description(&self.common.files, self.id.as_deref())?,

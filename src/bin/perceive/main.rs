@@ -10,7 +10,7 @@ use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, FrameInput, FromLog, Intake, Program};
 use spatial_fetch::perception::{Detector, ExternalDetector, Model, Perceiver};
 use spatial_fetch::record::Detection;
-use spatial_fetch::world::RoomMap;
+use spatial_fetch::world::load_map;
 
 /// Finds furniture with pose in RGB-D frames.
 ///
@@ -55,7 +55,7 @@ impl Arguments {
             folder: self.folder.clone().or(beside).unwrap_or_default(),
             detector: self.model.as_deref().map_or_else(|| Ok(Detector::default()), load_detector)?,
             external: external.map(Arc::new),
-            map: self.map.as_deref().map(RoomMap::load).transpose().map_err(|e| failed(&e))?,
+            map: self.map.as_deref().map(load_map).transpose().map_err(|e| failed(&e))?,
             overlay: self.overlay.clone(),
             force: self.common.force,
         })

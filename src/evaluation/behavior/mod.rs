@@ -11,5 +11,5 @@ pub use experiment::{Condition, Score, drive_all};
 pub use explain::{Explanation, Fault, explain};
 pub use instructions::{Instruction, Selection, Source, instructions};
 pub use report::{BehaviorReport, Cell, ConditionReport, Fall};
-pub use study::{Study, conditions};
+pub use study::{Study, conditions, lacking};
 pub use table::behavior_tables;

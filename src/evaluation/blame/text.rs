@@ -1,6 +1,7 @@
 //! Failures for people.
 
 use super::{Blames, Stage};
+use crate::evaluation::Rate;
 use crate::record::{Grounding, Node};
 
 const STAGES: [(Stage, &str); 5] = [
@@ -13,7 +14,13 @@ const STAGES: [(Stage, &str); 5] = [
 
 /// The charges, then each failure.
 pub fn blame_text(blames: &Blames) -> String {
-    let mut lines = vec![format!("{} of {} descriptions failed", blames.failed, blames.descriptions)];
+    let share = Rate { hit: blames.failed, of: blames.descriptions };
+    let (low, high) = share.interval();
+    let percent = [share.share(), low, high].map(|share| 100.0 * share);
+    let mut lines = vec![format!(
+        "{} of {} descriptions failed: {:.1} % ({:.1}–{:.1})",
+        blames.failed, blames.descriptions, percent[0], percent[1], percent[2]
+    )];
     if blames.unjudged > 0 {
         lines.push(format!("{} more have no gold meaning and were left out", blames.unjudged));
     }
@@ -29,10 +36,14 @@ pub fn blame_text(blames: &Blames) -> String {
         }
         let first = failure.first.as_deref().unwrap_or("nothing");
         lines.push(format!("   went to     {first}, not {}", failure.wanted.join(" or ")));
-        lines.push(format!("   understood  {}", failure.understood));
-        lines.push(format!("   meant       {}", failure.meant));
+        lines.push(format!("   understood  {}", or_nothing(&failure.understood)));
+        lines.push(format!("   meant       {}", or_nothing(&failure.meant)));
     }
     lines.join("\n")
+}
+
+fn or_nothing(phrase: &str) -> &str {
+    if phrase.is_empty() { "nothing" } else { phrase }
 }
 
 /// A meaning in one line.
@@ -47,7 +58,8 @@ pub fn meaning_phrase(meaning: &Grounding) -> String {
     });
     let object = meaning.object.as_ref().map(|object| object.name.replace('_', " "));
     let parts = room.into_iter().chain(meaning.nodes.iter().map(node_phrase)).chain(object);
-    parts.collect::<Vec<_>>().join("; ")
+    // A move that says neither whence nor whither has no words of its own.
+    parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ")
 }
 
 fn node_phrase(node: &Node) -> String {

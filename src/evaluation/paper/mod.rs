@@ -6,7 +6,8 @@ mod figures;
 mod text;
 
 pub use csv::paper_csv;
-pub use experiments::{Case, paper};
+pub use experiments::{Case, Experiments};
+pub(super) use text::name_of;
 pub use text::paper_text;
 
 use std::collections::BTreeMap;

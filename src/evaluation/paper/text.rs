@@ -2,9 +2,6 @@
 
 use super::{Cell, Column, Paper, PaperTable, Row, Source};
 
-/// Characters of the first column.
-const NAME_WIDTH: usize = 44;
-
 /// All three tables, each figure with its count, and Wilson intervals in the column of all.
 pub fn paper_text(paper: &Paper) -> String {
     let mut lines = vec![format!(
@@ -23,22 +20,28 @@ fn table_lines(table: &PaperTable) -> Vec<String> {
         other => format!("{:>18}", other.heading()),
     });
     let mut lines = vec![String::new(), table.title.clone()];
-    lines.push(format!("{:NAME_WIDTH$}{}{:>7}", "", headings.concat(), "SPL").trim_end().to_string());
-    lines.extend(table.rows.iter().map(row_line));
+    let names: Vec<String> = table.rows.iter().map(name_of).collect();
+    let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+    lines.push(format!("{:width$}{}{:>7}", "", headings.concat(), "SPL").trim_end().to_string());
+    lines.extend(table.rows.iter().zip(&names).map(|(row, name)| row_line(row, name, width)));
     lines
 }
 
-fn row_line(row: &Row) -> String {
-    let name = match (row.source, row.measure.as_str()) {
-        (Source::Paper, _) => format!("paper: {}", row.name),
-        (Source::Ours, measure) => format!("{}: {measure}", row.name),
-    };
+/// Whose figures a row holds, and of what.
+pub(in crate::evaluation) fn name_of(row: &Row) -> String {
+    match row.source {
+        Source::Paper => format!("paper: {}", row.name),
+        Source::Ours => format!("{}: {}", row.name, row.measure),
+    }
+}
+
+fn row_line(row: &Row, name: &str, width: usize) -> String {
     let cells = Column::ALL.map(|column| match (column, row.cells.get(&column)) {
         (Column::All, cell) => format!("{:>33}", cell.map(whole).unwrap_or_default()),
         (_, cell) => format!("{:>18}", cell.map(short).unwrap_or_default()),
     });
     let spl = row.spl.map_or(String::new(), |spl| format!("{:>7.3}", spl.0));
-    format!("{name:NAME_WIDTH$}{}{spl}", cells.concat()).trim_end().to_string()
+    format!("{name:width$}{}{spl}", cells.concat()).trim_end().to_string()
 }
 
 /// Percentage and count.

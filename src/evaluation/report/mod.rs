@@ -46,7 +46,7 @@ fn page(paper: &Paper, cases: &[Case], homes: &[Home; 2]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evaluation::{paper, read_gold};
+    use crate::evaluation::{Experiments, read_gold};
     use crate::trial::Settings;
     use crate::world::{RoomMap, Scene};
 
@@ -55,9 +55,10 @@ mod tests {
         let text = include_str!("../../../corpus/templates.jsonl").lines().next().unwrap_or_default();
         let gold = read_gold(&text.replace("bear right", "bear<right"), "t.jsonl").expect("gold");
         let homes =
-            [Scene::apartment(), Scene::apartment_modified()].map(|scene| Home { map: RoomMap::apartment(), scene });
-        let (result, cases) = paper("<corpus>", &gold, &homes, Settings::default(), 1);
-        let page = page(&result, &cases, &homes);
+            [Scene::apartment(), Scene::apartment_modified()].map(|scene| Home::new(RoomMap::apartment(), scene));
+        let (corpus, settings) = ("<corpus>".to_string(), Settings::default());
+        let experiments = Experiments { corpus, gold: &gold, homes: &homes, settings, seeds: 1 };
+        let page = page(&experiments.run(&|| ()), &experiments.cases(), &homes);
         assert_eq!(page.matches("<details class=\"trial\"").count(), 2);
         assert!(page.contains("bear&lt;right") && !page.contains("bear<right") && !page.contains("<corpus>"));
         assert!(

@@ -1,6 +1,7 @@
 //! The paper's tables.
 
 use super::html::escaped;
+use crate::evaluation::paper::name_of;
 use crate::evaluation::{Cell, Column, Paper, PaperTable, Row, Source};
 
 /// All three, with what has to be known to read them.
@@ -26,10 +27,8 @@ fn table(table: &PaperTable) -> String {
 }
 
 fn row(row: &Row) -> String {
-    let (class, name) = match row.source {
-        Source::Paper => (" class=\"published\"", format!("paper: {}", row.name)),
-        Source::Ours => ("", format!("{}: {}", row.name, row.measure)),
-    };
+    let class = if row.source == Source::Paper { " class=\"published\"" } else { "" };
+    let name = name_of(row);
     let cells: String = Column::ALL.iter().map(|column| format!("<td>{}</td>", cell(row.cells.get(column)))).collect();
     let spl = row.spl.map_or("–".to_string(), |spl| format!("{:.3}", spl.0));
     format!("<tr{class}><th scope=\"row\">{}</th>{cells}<td>{spl}</td></tr>\n", escaped(&name))

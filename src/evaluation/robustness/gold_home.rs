@@ -43,7 +43,7 @@ pub fn home_for(grounding: &Grounding, lexicon: &Lexicon, dice: &mut Dice) -> Op
         let (scene, target) = builder.build(&plan, grounding)?;
         let sound = crate::world::check(&scene, &map, "the gold home").is_ok();
         let accessible = sound && everything_is_accessible(&map, &scene);
-        accessible.then_some(GoldHome { home: Home { map, scene }, target })
+        accessible.then_some(GoldHome { home: Home::new(map, scene), target })
     })
 }
 

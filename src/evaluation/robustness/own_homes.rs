@@ -32,7 +32,7 @@ pub fn own_homes() -> Result<Vec<OwnHome>, GoldError> {
             line: 1,
             message: "no shipped home of that name".to_string(),
         })?;
-        Ok(OwnHome { name, home: Home { map, scene }, gold })
+        Ok(OwnHome { name, home: Home::new(map, scene), gold })
     };
     CORPORA.iter().map(|(name, text)| embedded(name, text)).collect()
 }

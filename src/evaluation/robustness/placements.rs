@@ -49,7 +49,7 @@ pub fn placements(gold: &[Gold], home: &Home, relations: Relations, count: usize
         let id = format!("{}-{i}", gold.id);
         let mut dice = Dice::new(experiment.settings.seed, i as u64);
         let Some(scene) = rearranged(&home.map, &home.scene, relations, &mut dice) else { return vec![Err(id)] };
-        let home = Home { map: home.map.clone(), scene };
+        let home = Home::new(home.map.clone(), scene);
         (0..experiment.seeds)
             .map(|seed| Ok(Counted::found(id.clone(), experiment.trial(&home, plan, &id, seed))))
             .collect()

@@ -85,10 +85,11 @@ impl Trial<'_> {
 
     /// What the trial comes to with the piece shifted; nothing where it cannot stand.
     fn shifted(&self, item: usize, heading_deg: f64, metres: f64) -> Option<Upshot> {
-        let mut home = self.home.clone();
-        let piece = home.scene.furniture.get_mut(item)?;
+        let mut scene = self.home.scene.clone();
+        let piece = scene.furniture.get_mut(item)?;
         let (sin, cos) = heading_deg.to_radians().sin_cos();
         (piece.x, piece.y) = (piece.x + cos * metres, piece.y + sin * metres);
+        let home = Home::new(self.home.map.clone(), scene);
         check(&home.scene, &home.map, "the home with a piece shifted").ok()?;
         Some(upshot(&Pipeline::new(&home, *self.settings), self.id, self.plan))
     }

@@ -17,6 +17,10 @@ const STEP_S: f64 = 0.02;
 const STEPS_PER_PING: u64 = 2;
 /// Clearance is not told apart beyond this, metres.
 const CLEARANCE_REACH_M: f64 = 1.0;
+/// Clearance is measured again before it could be used up by more than this, and after every so many metres of motion,
+/// so that the least clearance is true to a centimetre.
+const SLACK_MARGIN_M: f64 = 0.005;
+const MOST_SLACK_M: f64 = 0.02;
 /// A robot that touched something is free again at this distance, metres.
 const FREE_AGAIN_M: f64 = 0.02;
 
@@ -49,6 +53,8 @@ pub struct SimulatedBase {
     status: Status,
     /// A lower bound of the clearance: while it stays above zero nothing need be measured.
     slack_m: f64,
+    /// Another, for telling without measuring that the clearance is not the least so far.
+    known_clear_m: f64,
 }
 
 impl SimulatedBase {
@@ -83,6 +89,7 @@ impl SimulatedBase {
             dice,
             status: Status::default(),
             slack_m: 0.0,
+            known_clear_m: 0.0,
         };
         base.measure_clearance();
         base.read_compass();
@@ -125,7 +132,9 @@ impl SimulatedBase {
         self.truth.borrow_mut().pose = after;
         // No point of the outline moves farther than this in a step.
         let rolled = (after.position() - before.position()).norm();
-        self.slack_m -= rolled + angle_between(after.heading, before.heading) * p3dx::SWING_M;
+        let most = rolled + angle_between(after.heading, before.heading) * p3dx::SWING_M;
+        self.slack_m -= most;
+        self.known_clear_m -= most;
         if self.slack_m <= 0.0 && self.measure_clearance() <= 0.0 {
             self.truth.borrow_mut().pose = before;
             self.touch();
@@ -147,10 +156,15 @@ impl SimulatedBase {
 
     fn measure_clearance(&mut self) -> f64 {
         let mut truth = self.truth.borrow_mut();
-        let clearance = self.obstacles.clearance(&p3dx::outline(truth.pose), truth.pose.position(), CLEARANCE_REACH_M);
+        let of_interest = truth.min_clearance_m.max(FREE_AGAIN_M).max(MOST_SLACK_M + SLACK_MARGIN_M);
+        let clearance = if self.known_clear_m > of_interest + 1e-9 {
+            self.known_clear_m
+        } else {
+            self.obstacles.clearance(&p3dx::outline(truth.pose), truth.pose.position(), CLEARANCE_REACH_M)
+        };
+        self.known_clear_m = clearance;
         truth.min_clearance_m = truth.min_clearance_m.min(clearance);
-        // Measured again before it could be used up, often enough for the least clearance to be true to a centimetre.
-        self.slack_m = (clearance - 0.005).clamp(0.0, 0.02);
+        self.slack_m = (clearance - SLACK_MARGIN_M).clamp(0.0, MOST_SLACK_M);
         // Only once it has backed away is another touch another collision.
         if clearance > FREE_AGAIN_M {
             self.status = Status::default();

@@ -74,13 +74,20 @@ impl Camera {
     /// The ray through a pixel (column to the right, row downward) of a robot at `pose`.
     ///
     /// One unit of its direction is one metre along the optical axis, so a hit's distance is its depth.
-    pub fn ray(&self, pose: Pose, column: f64, row: f64) -> Ray {
-        let right = (column - (self.width as f64 - 1.0) / 2.0) / self.focal;
-        let down = (row - (self.height as f64 - 1.0) / 2.0) / self.focal;
+    pub fn ray(self, pose: Pose, column: f64, row: f64) -> Ray {
+        self.rays(pose)(column, row)
+    }
+
+    /// [`Self::ray`] for many pixels: the angles' sines and cosines are taken once.
+    pub fn rays(self, pose: Pose) -> impl Fn(f64, f64) -> Ray {
         let (sin, cos) = self.tilt.sin_cos();
-        let ahead = cos - down * sin;
-        let direction = pose.forward() * ahead + vec2(pose.heading.sin(), -pose.heading.cos()) * right;
-        Ray { origin: pose.position(), height: self.tower_m, direction, climb: -sin - down * cos }
+        let (forward, across) = (pose.forward(), vec2(pose.heading.sin(), -pose.heading.cos()));
+        move |column, row| {
+            let right = (column - (self.width as f64 - 1.0) / 2.0) / self.focal;
+            let down = (row - (self.height as f64 - 1.0) / 2.0) / self.focal;
+            let direction = forward * (cos - down * sin) + across * right;
+            Ray { origin: pose.position(), height: self.tower_m, direction, climb: -sin - down * cos }
+        }
     }
 
     /// Column, row and depth of a point in space; nothing behind the camera.

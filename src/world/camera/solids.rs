@@ -1,6 +1,6 @@
 //! The scene as solids, with what each belongs to.
 
-use super::faces::{Faces, Finish, Texture, bounds_of};
+use super::faces::{Faces, Finish, Point, Texture, bounds_of};
 use crate::geometry::Vec2;
 use crate::world::solid::Solid;
 use crate::world::{RoomMap, Scene, Shape};
@@ -19,6 +19,9 @@ pub struct SolidScene {
 #[derive(Clone, Debug)]
 pub(super) struct Thing {
     pub solids: Vec<Solid>,
+    /// The box round all of them: opposite corners.
+    low: Point,
+    high: Point,
     pub centre: Vec2,
     pub middle_height: f64,
     pub radius: f64,
@@ -77,7 +80,18 @@ impl Thing {
         let bottom = solids.iter().map(Solid::bottom).fold(f64::INFINITY, f64::min);
         let top = solids.iter().map(Solid::top).fold(0.0, f64::max);
         let radius = ((high - low).norm_squared() + (top - bottom).powi(2)).sqrt() / 2.0;
-        Self { solids, centre: (low + high) / 2.0, middle_height: (bottom + top) / 2.0, radius }
+        let (centre, middle_height) = ((low + high) / 2.0, (bottom + top) / 2.0);
+        let (low, high) = (Point::new(low.x, low.y, bottom), Point::new(high.x, high.y, top));
+        Self { solids, low, high, centre, middle_height, radius }
+    }
+
+    /// The corners of the box round it.
+    pub(super) fn corners(&self) -> impl Iterator<Item = Point> {
+        let (low, high) = (self.low, self.high);
+        let pick = |bit: usize, low: f64, high: f64| if bit == 0 { low } else { high };
+        (0..8).map(move |i| {
+            Point::new(pick(i & 1, low.x, high.x), pick(i & 2, low.y, high.y), pick(i & 4, low.z, high.z))
+        })
     }
 
     /// Colour of the largest part.

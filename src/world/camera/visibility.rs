@@ -42,33 +42,33 @@ impl SolidScene {
     pub fn visibility(&self, camera: &Camera, pose: Pose) -> Seen {
         let coarse = camera.coarser(COARSER);
         let ahead: Vec<usize> = (0..self.furniture.len()).filter(|&i| may_be_seen(&self.furniture[i], pose)).collect();
-        let mut furniture = vec![Visibility::default(); self.furniture.len()];
-        for row in 0..coarse.height {
-            for column in 0..coarse.width {
-                let ray = coarse.ray(pose, column as f64, row as f64);
-                self.count(&ray, &ahead, coarse.near_m, &mut furniture);
-            }
-        }
         let objects = self.objects.iter().map(|object| self.object_visibility(camera, pose, object, &ahead)).collect();
-        Seen { furniture, objects }
+        Seen { furniture: self.furniture_visibility(&coarse, pose, &ahead), objects }
     }
 
-    /// Counts one ray for every item it meets; all but the first are hidden along it.
-    fn count(&self, ray: &Ray, ahead: &[usize], near: f64, counts: &mut [Visibility]) {
-        let mut first: Option<(f64, usize)> = None;
+    /// Counts every ray for each item it meets; all but the first are hidden along it.
+    fn furniture_visibility(&self, camera: &Camera, pose: Pose, ahead: &[usize]) -> Vec<Visibility> {
+        let ray = camera.rays(pose);
+        let ray = |pixel: usize| ray((pixel % camera.width) as f64, (pixel / camera.width) as f64);
+        let mut counts = vec![Visibility::default(); self.furniture.len()];
+        let mut first: Vec<Option<(f64, usize)>> = vec![None; camera.width * camera.height];
         for &index in ahead {
-            if let Some(distance) = nearest(&self.furniture[index], ray, near) {
+            for pixel in pixels_of(&self.furniture[index], camera, pose) {
+                let Some(distance) = nearest(&self.furniture[index], &ray(pixel), camera.near_m) else { continue };
                 counts[index].unoccluded += 1;
-                if first.is_none_or(|(least, _)| distance < least) {
-                    first = Some((distance, index));
+                if first[pixel].is_none_or(|(least, _)| distance < least) {
+                    first[pixel] = Some((distance, index));
                 }
             }
         }
-        if let Some((distance, index)) = first
-            && self.wall_before(ray, distance).is_none()
-        {
-            counts[index].seen += 1;
+        for (pixel, first) in first.into_iter().enumerate() {
+            if let Some((distance, index)) = first
+                && self.wall_before(&ray(pixel), distance).is_none()
+            {
+                counts[index].seen += 1;
+            }
         }
+        counts
     }
 
     /// Rays to points over the object's extent, each open or hidden.
@@ -81,10 +81,11 @@ impl SolidScene {
             .iter()
             .all(|(dx, dy)| camera.shows(column + dx, row + dy));
         let mut visibility = Visibility { whole_in_view, ..Visibility::default() };
+        let rays = camera.rays(pose);
         for i in 0..OBJECT_GRID * OBJECT_GRID {
             let offset = |k: usize| (2.0 * (k as f64 + 0.5) / OBJECT_GRID as f64 - 1.0) * reach;
             let (dx, dy) = (offset(i % OBJECT_GRID), offset(i / OBJECT_GRID));
-            let ray = camera.ray(pose, column + dx, row + dy);
+            let ray = rays(column + dx, row + dy);
             let Some(distance) = nearest(object, &ray, camera.near_m) else { continue };
             visibility.unoccluded += 1;
             let hidden =
@@ -145,6 +146,24 @@ fn may_be_seen(thing: &Thing, pose: Pose) -> bool {
     let local = pose.to_local(thing.centre);
     let distance = local.norm();
     distance <= thing.radius || (local.y.atan2(local.x).abs() - (thing.radius / distance).min(1.0).asin()) < HALF_VIEW
+}
+
+/// The pixels on which a thing can show, by number: those within the corners of its bounding box.
+fn pixels_of(thing: &Thing, camera: &Camera, pose: Pose) -> impl Iterator<Item = usize> {
+    let (mut low, mut high) = (vec2(f64::INFINITY, f64::INFINITY), vec2(f64::NEG_INFINITY, f64::NEG_INFINITY));
+    for corner in thing.corners() {
+        // A corner beside or behind the camera bounds nothing.
+        let (least, most) = match camera.project(pose, corner.xy(), corner.z) {
+            Some((column, row, _)) => (vec2(column, row), vec2(column, row)),
+            None => (Vec2::repeat(f64::NEG_INFINITY), Vec2::repeat(f64::INFINITY)),
+        };
+        (low, high) = (low.inf(&least), high.sup(&most));
+    }
+    // One pixel more on every side, so that rounding decides nothing.
+    let range =
+        |low: f64, high: f64, size: usize| ((low - 1.0).max(0.0) as usize)..((high + 2.0).max(0.0) as usize).min(size);
+    let (columns, width) = (range(low.x, high.x, camera.width), camera.width);
+    range(low.y, high.y, camera.height).flat_map(move |row| columns.clone().map(move |column| row * width + column))
 }
 
 /// The distance at which a ray first meets a thing.
