@@ -14,7 +14,7 @@ use crate::Command;
 #[derive(Args)]
 pub struct Arguments {
     /// Frames to learn the categories from; half as many again are rendered for joining and fronts
-    #[arg(long, value_name = "N", default_value_t = 3000)]
+    #[arg(long, value_name = "N", default_value_t = 4000)]
     count: u64,
     #[command(flatten)]
     common: Common,
