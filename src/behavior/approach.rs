@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::Furniture;
+use super::driving::NARROW_M;
 use super::pilot::SWING_M;
 use super::route::{length, route};
 use crate::geometry::{ClearanceGrid, Pose, Vec2, vec2, wrap_angle};
@@ -33,23 +34,36 @@ const SIGHT_M: f64 = 0.06;
 ///
 /// `rooms` is the grid of the rooms alone, `grid` has all known furniture as well.
 pub fn viewpoints(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, furniture: &Furniture) -> Vec<Pose> {
+    // Outlines that are believed too large leave a gap too narrow that is wide enough.
+    let roomy = viewpoints_at(grid, rooms, from, furniture, SWING_M);
+    if roomy.is_empty() { viewpoints_at(grid, rooms, from, furniture, NARROW_M) } else { roomy }
+}
+
+/// The same, keeping `clear` metres from everything on the way.
+fn viewpoints_at(
+    grid: &ClearanceGrid,
+    rooms: &ClearanceGrid,
+    from: Vec2,
+    furniture: &Furniture,
+    clear: f64,
+) -> Vec<Pose> {
     let centre = furniture.centre();
     let mut places: Vec<(f64, Vec2)> = (0..DIRECTIONS)
-        .filter_map(|i| free_place(grid, furniture, TAU * i as f64 / DIRECTIONS as f64))
+        .filter_map(|i| free_place(grid, furniture, TAU * i as f64 / DIRECTIONS as f64, clear))
         .filter(|&point| rooms.clearance_along(point, centre) >= SIGHT_M)
         .map(|point| ((point - from).norm() + 0.5 * (point - centre).norm(), point))
         .collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     let fresh: Vec<(f64, Vec2)> =
         places.iter().copied().filter(|(_, point)| is_other_side(furniture, *point)).collect();
-    let first = cheapest(grid, from, &fresh).or_else(|| cheapest(grid, from, &places));
+    let first = cheapest(grid, from, &fresh, clear).or_else(|| cheapest(grid, from, &places, clear));
     let Some(first) = first else { return Vec::new() };
     let mut poses = vec![facing(first, centre)];
     if furniture.detection.length.max(furniture.detection.width) > LONG_M {
         let across =
             |point: &Vec2| crate::geometry::angle_between(bearing(centre, *point), bearing(centre, first)) > PI / 2.0;
         let others: Vec<(f64, Vec2)> = places.into_iter().filter(|(_, point)| across(point)).collect();
-        poses.extend(cheapest(grid, first, &others).map(|point| facing(point, centre)));
+        poses.extend(cheapest(grid, first, &others, clear).map(|point| facing(point, centre)));
     }
     poses
 }
@@ -65,7 +79,7 @@ pub fn vantage(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, furnitur
         .map(|point| ((point - from).norm(), point))
         .collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
-    cheapest(grid, from, &places).map(|point| facing(point, centre))
+    cheapest(grid, from, &places, SWING_M).map(|point| facing(point, centre))
 }
 
 /// Whether `furniture` was never looked at from the side of `point`.
@@ -86,20 +100,20 @@ pub fn better_view(grid: &ClearanceGrid, rooms: &ClearanceGrid, from: Vec2, poin
 }
 
 /// The nearest free place to the furniture in one direction from it.
-fn free_place(grid: &ClearanceGrid, furniture: &Furniture, angle: f64) -> Option<Vec2> {
+fn free_place(grid: &ClearanceGrid, furniture: &Furniture, angle: f64, clear: f64) -> Option<Vec2> {
     let centre = furniture.centre();
     let direction = vec2(angle.cos(), angle.sin());
     let edge = furniture.footprint.corners().iter().map(|c| (c - centre).dot(&direction)).fold(0.0, f64::max);
     let nearest = (edge + FROM_EDGE_M).max(FROM_MIDDLE_M);
     let steps = (SLACK_M / 0.1) as usize;
     let place = |i: usize| centre + direction * (nearest + 0.1 * i as f64);
-    (0..=steps).map(place).find(|&point| grid.clearance(grid.cell(point)) >= SWING_M + 0.05)
+    (0..=steps).map(place).find(|&point| grid.clearance(grid.cell(point)) >= clear + 0.05)
 }
 
 /// The places come sorted by straight distance; the first few that have a way are compared by its length.
-fn cheapest(grid: &ClearanceGrid, from: Vec2, places: &[(f64, Vec2)]) -> Option<Vec2> {
+fn cheapest(grid: &ClearanceGrid, from: Vec2, places: &[(f64, Vec2)], clear: f64) -> Option<Vec2> {
     let reachable = places.iter().filter_map(|&(_, point)| {
-        let points = route(grid, from, point, SWING_M)?;
+        let points = route(grid, from, point, clear)?;
         let end = points.last().copied().unwrap_or(from);
         ((end - point).norm() < 0.15).then(|| (length(from, &points), point))
     });

@@ -15,7 +15,7 @@ const DETOUR: f64 = 1.25;
 /// What a route may shrink to before it is planned anew, metres.
 const LEAST_M: f64 = 0.39;
 /// Where there is no wider way, as through a door of 0.9 m, this must do, metres.
-const NARROW_M: f64 = LEAST_M + 0.01;
+pub(super) const NARROW_M: f64 = LEAST_M + 0.01;
 /// Speeds and the braking they count on.
 const SPEED_M_S: f64 = 0.5;
 const CREEP_M_S: f64 = 0.1;
