@@ -22,6 +22,8 @@ const MOVED_M: f64 = 0.02;
 
 /// Small things recognised nearer to each other than this are one, metres.
 pub(super) const SAME_THING_M: f64 = 0.15;
+/// What is less likely furniture than this may confirm a piece, but is not believed to be one.
+const LEAST_FURNITURE: f64 = 0.5;
 /// So many looks in plain view without a piece are needed to take it to be not there.
 const LOOKS_TO_REFUTE: f64 = 3.0;
 
@@ -226,6 +228,9 @@ impl Beliefs {
         if let Some(known) = near.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
             return known.look_again(detection, footprint);
         }
+        if furniture_chance(detection) < LEAST_FURNITURE {
+            return false;
+        }
         let number = 1 + self.furniture.iter().filter(|f| f.detection.category == detection.category).count();
         self.furniture.push(Furniture::new(number, detection, footprint));
         true
@@ -262,6 +267,11 @@ impl Beliefs {
             (0..self.furniture.len()).min_by(|&a, &b| near(&self.furniture[a]).total_cmp(&near(&self.furniture[b])))?;
         (near(&self.furniture[best]) < 0.5).then_some(best)
     }
+}
+
+/// How sure the eyes are that it is furniture at all: the category's chance among all over that among furniture.
+fn furniture_chance(detection: &Detection) -> f64 {
+    detection.scores.get(&detection.category).map_or(1.0, |score| detection.confidence / score.max(1e-9))
 }
 
 fn far_apart(a: &ObjectSighting, b: &ObjectSighting) -> bool {

@@ -17,6 +17,9 @@ const AT_WALLS: [&[(&str, f64)]; 4] = [
     &[("bookshelf", 0.7), ("shelf", 0.5), ("cabinet", 0.4), ("couch", 0.3), ("wardrobe", 0.2), ("lamp", 0.3)],
 ];
 
+/// Tall for a small thing, metres.
+const TALL_M: f64 = 0.2;
+
 /// A room for sleeping, living, dining or working, with some pieces that belong and some that need not.
 pub(super) fn furnished_room(rng: &mut ChaCha8Rng) -> FurnishedRoom {
     let mut furnisher = Furnisher::new(rng);
@@ -189,7 +192,10 @@ fn television(dice: &mut Dice) -> Piece {
 
 /// One of the small objects, as scenes have them.
 fn small_thing(dice: &mut Dice) -> Piece {
-    let object = &OBJECTS[dice.whole(0, OBJECTS.len() - 1)];
+    // Tall things more often: a monitor on a nightstand is easily taken for a chair's back.
+    let least_height = if dice.chance(0.3) { TALL_M } else { 0.0 };
+    let choices: Vec<_> = OBJECTS.iter().filter(|object| object.size.height >= least_height).collect();
+    let object = dice.pick(&choices);
     let solids = crate::world::furniture::object_solids(object.name, Pose::default(), object.size, 0.0, object.color);
     let parts = solids.iter().map(|solid| {
         let outline = solid.footprint().corners().to_vec();

@@ -3,9 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::room::{FurnishedRoom, Placed};
-use crate::geometry::{Polygon, Pose, vec2};
+use crate::geometry::{Polygon, Pose, Vec2, vec2};
 use crate::world::families::{Dice, Piece};
 
+/// A thing may be so much larger than what it stands on.
+const OVERHANG: f64 = 1.25;
 /// How often a place is tried before a piece is left out.
 const TRIES: usize = 25;
 
@@ -77,8 +79,9 @@ impl FurnishedRoom {
         let holder = &self.placed[other];
         let (half, own) = (holder.piece.half(), piece.half());
         // Within the inscribed ellipse, so that it also lies on round tops.
-        let free = (half - own * 1.1) * 0.68;
-        if free.x <= 0.0 || free.y <= 0.0 {
+        let free = ((half - own * 1.1) * 0.68).sup(&Vec2::zeros());
+        // A monitor may stand over the edges of a nightstand.
+        if own.x > OVERHANG * half.x || own.y > OVERHANG * half.y {
             return;
         }
         let local = vec2(dice.between(-free.x, free.x), dice.between(-free.y, free.y));
