@@ -6,7 +6,8 @@ use crate::evaluation::{Cell, Column, Paper, PaperTable, Row, Source};
 
 /// All three, with what has to be known to read them.
 pub(super) fn section(paper: &Paper) -> String {
-    let notes: String = paper.notes.iter().map(|note| format!("<li>{}</li>\n", escaped(note))).collect();
+    let notes: String =
+        paper.notes.iter().map(|note| format!("<li>{}</li>\n", escaped(&note.replace('`', "\"")))).collect();
     let seeds = if paper.seeds == 1 { "one seed".to_string() } else { format!("{} seeds", paper.seeds) };
     let tables: String = paper.tables.iter().map(table).collect();
     format!(
