@@ -56,14 +56,14 @@ impl Program for Arguments {
     }
     fn run(self) -> Result<Exit, Failure> {
         let reporter = Reporter::new(Self::NAME, &self.common);
-        let arguments = self.as_recorded(&reporter)?;
+        let arguments = self.with_recorded_options(&reporter)?;
         arguments.drive(reporter)
     }
 }
 
 impl Arguments {
     /// With the options of the log that is replayed, where none were given.
-    fn as_recorded(self, reporter: &Reporter) -> Result<Self, Failure> {
+    fn with_recorded_options(self, reporter: &Reporter) -> Result<Self, Failure> {
         // What comes through a pipe is read once.
         let Some(log) = self.log.from.as_ref().filter(|log| log.is_file()) else { return Ok(self) };
         let Some(replay) = replay::replay(log)? else { return Ok(self) };

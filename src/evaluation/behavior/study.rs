@@ -41,7 +41,7 @@ pub fn lacking() -> [(&'static str, Options); 9] {
     let no_glance = Options { no_glance: true, ..usual };
     [
         ("blind: nearest table first", Options { blind: true, ..usual }),
-        ("first pair only (previous system)", Options { first_pair_only: true, ..usual }),
+        ("first pair, as previous system", Options { first_pair_only: true, ..usual }),
         ("one frame of reference", Options { one_frame: true, ..usual }),
         ("no fall-back", Options { no_fallback: true, ..usual }),
         ("no localization", Options { no_localization: true, ..usual }),

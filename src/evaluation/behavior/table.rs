@@ -91,5 +91,5 @@ fn interval(rate: Rate) -> String {
 
 fn row(name: &str, cells: impl Iterator<Item = String>) -> String {
     let cells: String = cells.map(|cell| format!("{cell:>20}")).collect();
-    format!("{name:34}{cells}").trim_end().to_string()
+    format!("{name:36}{cells}").trim_end().to_string()
 }

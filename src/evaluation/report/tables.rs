@@ -6,12 +6,14 @@ use crate::evaluation::{Cell, Column, Paper, PaperTable, Row, Source};
 
 /// All three, with what has to be known to read them.
 pub(super) fn section(paper: &Paper) -> String {
-    let notes: String = paper.notes.iter().map(|note| format!("<li>{}</li>\n", escaped(note))).collect();
+    let notes: String =
+        paper.notes.iter().map(|note| format!("<li>{}</li>\n", escaped(&note.replace('`', "\"")))).collect();
+    let seeds = if paper.seeds == 1 { "one seed".to_string() } else { format!("{} seeds", paper.seeds) };
     let tables: String = paper.tables.iter().map(table).collect();
     format!(
-        "<p>{} descriptions; {} of them mean something different from all before and are driven, with {} seeds each; \
+        "<p>{} descriptions; {} of them mean something different from all before and are driven, under {} each; \
          perception: {}. Counts with Wilson 95 % intervals; shaded rows are the paper's.</p>\n{tables}<ul>\n{notes}</ul>\n",
-        paper.descriptions, paper.unique, paper.seeds, paper.perception
+        paper.descriptions, paper.unique, seeds, paper.perception
     )
 }
 
@@ -21,7 +23,7 @@ fn table(table: &PaperTable) -> String {
         Column::ALL.iter().map(|column| format!(r#"<th scope="col">{}</th>"#, column.heading())).collect();
     let rows: String = table.rows.iter().map(row).collect();
     format!(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{title}\"><table>\n<caption>{title}</caption>\n\
+        "<h2>{title}</h2>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{title}\"><table aria-label=\"{title}\">\n\
          <thead><tr><th scope=\"col\">run</th>{headings}<th scope=\"col\">SPL</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     )
 }

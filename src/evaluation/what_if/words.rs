@@ -70,9 +70,8 @@ fn edits(pipeline: &Pipeline, text: &str) -> Vec<Edit> {
     let mut edits = Vec::new();
     for word in text.split_whitespace() {
         let start = word.as_ptr() as usize - text.as_ptr() as usize;
-        let bare = word.trim_end_matches(|c: char| c.is_ascii_punctuation());
-        let end = start + bare.len();
-        let replaced = neighbours(pipeline, &bare.to_lowercase());
+        let end = start + bare(word).len();
+        let replaced = neighbours(pipeline, &bare(word).to_lowercase());
         edits.extend(replaced.into_iter().map(|new| Edit { start, end, new: Some(new) }));
         edits.push(Edit { start, end, new: None });
     }
@@ -110,8 +109,15 @@ fn apply(text: &str, edits: &[&Edit]) -> String {
 
 fn phrase(text: &str, edit: &Edit) -> String {
     let old = &text[edit.start..edit.end];
+    let said = |text: &str| text.split_whitespace().filter(|word| bare(word) == old).count();
+    let nth = if said(text) > 1 { format!(" (number {})", said(&text[..edit.start]) + 1) } else { String::new() };
     match &edit.new {
-        Some(new) => format!("{old} → {new}"),
-        None => format!("drop \"{old}\""),
+        Some(new) => format!("{old}{nth} → {new}"),
+        None => format!("drop \"{old}\"{nth}"),
     }
+}
+
+/// A word without the punctuation after it.
+fn bare(word: &str) -> &str {
+    word.trim_end_matches(|c: char| c.is_ascii_punctuation())
 }
