@@ -73,7 +73,9 @@ enum Lesson {
 fn sizes(seed: u64) -> Vec<Vec<Size>> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut some = |category: &str| -> Vec<Size> {
-        (0..SIZES).filter_map(|_| families::sample(category, &mut rng)).map(|piece| rounded(piece.size)).collect()
+        // Lamps stand on the floor or on tables.
+        let family = |i: usize| if category == "lamp" && i % 2 == 1 { "table_lamp" } else { category };
+        (0..SIZES).filter_map(|i| families::sample(family(i), &mut rng)).map(|piece| rounded(piece.size)).collect()
     };
     CATEGORIES.iter().map(|category| some(category)).collect()
 }
