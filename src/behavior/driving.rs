@@ -37,6 +37,10 @@ const SONAR_AGE_S: f64 = 0.32;
 const TURNING_M: f64 = p3dx::SWING_M + 0.03;
 /// How far the robot backs off from what it touched, metres.
 const BACK_OFF_M: f64 = 0.25;
+/// How far it creeps to make room for a turn, metres.
+const MAKE_ROOM_M: f64 = 0.6;
+/// What is heard so little ahead or behind stands abreast, metres.
+const ABREAST_M: f64 = 0.1;
 /// This far past its outline a room has been entered, metres.
 const WELL_INSIDE_M: f64 = 0.3;
 /// How often a blocked way is planned anew without getting on, and in all; and how often a held robot is freed.
@@ -115,6 +119,10 @@ impl Pilot<'_> {
         let Some(centre) = unsure.min_by(|a, b| away(a).total_cmp(&away(b))).map(Furniture::centre) else {
             return Ok(());
         };
+        // Beside something that is larger than it was believed to be there is no room to turn.
+        if self.base.sonar().iter().any(|reading| heard_at(reading).norm() < TURNING_M) {
+            return Ok(());
+        }
         if here.bearing_to(centre).abs() > OFF_LINE_RAD {
             self.turn_to(wrap_angle(here.heading + here.bearing_to(centre)))?;
         }
@@ -288,15 +296,23 @@ impl Pilot<'_> {
         self.come_to_rest()
     }
 
-    /// Before a turn in place: away from what the sonars hear within the swing, as far as the other side allows.
+    /// Before a turn in place: away from what the sonars hear within the swing, as far as the other side allows; past
+    /// what stands abreast, whichever way is freer.
     fn make_room(&mut self) -> Result<(), Halt> {
-        for _ in 0..(BACK_OFF_M / CREEP_M_S / TICK_S) as usize {
-            let points = || self.base.sonar().iter().map(heard_at);
-            let Some(nearest) = points().min_by(|a, b| a.norm().total_cmp(&b.norm())) else { return Ok(()) };
-            let (lacks, ahead) = (TURNING_M - nearest.norm(), nearest.x < 0.0);
+        // The sonars hear only along their axes: what one of them heard is still there when it hears it no more.
+        let (mut past, mut heard) = (None, Vec::new());
+        for _ in 0..(MAKE_ROOM_M / CREEP_M_S / TICK_S) as usize {
+            let here = self.pose();
+            let within = self.base.sonar().iter().map(heard_at).filter(|point| point.norm() < TURNING_M);
+            heard.extend(within.map(|point| here.to_world(point)));
+            let points = heard.iter().map(|&point| here.to_local(point));
+            let Some(nearest) = points.min_by(|a, b| a.norm().total_cmp(&b.norm())) else { break };
+            let lacks = TURNING_M - nearest.norm();
+            let is_abreast = nearest.x.abs() < ABREAST_M;
+            let freer = self.free_ahead() > self.free_behind();
+            let ahead = if is_abreast { *past.get_or_insert(freer) } else { nearest.x < 0.0 };
             let free = if ahead { self.free_ahead() } else { self.free_behind() };
-            // What stands abreast is passed no better by creeping.
-            if lacks <= 0.0 || free < GUARD_M + lacks || nearest.x.abs() < 0.1 {
+            if lacks <= 0.0 || free < GUARD_M + if is_abreast { ABREAST_M } else { lacks } {
                 break;
             }
             self.tick(if ahead { CREEP_M_S } else { -CREEP_M_S }, 0.0)?;

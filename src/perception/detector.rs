@@ -11,7 +11,7 @@ use super::items::parts_of_items;
 use super::joining::Joining;
 use super::measures::{Measured, measure};
 use super::model::{CATEGORIES, Model, NOTHING};
-use super::objects::sightings;
+use super::objects::{HOLDERS, sightings};
 use super::patches::patches;
 use super::points::{Points, points};
 use super::reconsider::reconsider;
@@ -27,9 +27,11 @@ use crate::world::{OBJECTS, RoomMap};
 /// Two sightings of one name nearer than this are of one object, metres.
 const SAME_M: f64 = 0.15;
 /// What is likelier no furniture than this is left out.
-const MOST_NOTHING: f32 = 0.75;
+const MOST_NOTHING: f32 = 0.85;
 /// An object is named only when its name is at least this likely.
 const LEAST_NAME: f32 = 0.35;
+/// On pieces less likely tables or chests nothing is looked for: on beds and seats cushions would pass for things.
+const LEAST_HOLDER: f32 = 0.03;
 /// The training rooms show so much more clutter on tops – edges, shades, patterns – than a top has objects.
 const CLUTTER: f32 = 0.08;
 
@@ -97,8 +99,11 @@ impl Detector {
         let (mut furniture, mut objects) = (Vec::new(), Vec::new());
         for (number, piece) in (0_u32..).zip(&parts.segments.pieces) {
             let measured = measure(&parts.grid, &parts.walls, piece);
-            objects.extend(self.objects(frame, parts, piece, measured.measures.plate));
-            furniture.extend(self.piece(parts, number, piece, &measured));
+            let chances = self.model.category.probabilities(&measured.features);
+            if holder_chance(&chances) > LEAST_HOLDER {
+                objects.extend(self.objects(frame, parts, piece, measured.measures.plate));
+            }
+            furniture.extend(self.piece(parts, (number, piece), &measured, &chances));
         }
         let furniture: Vec<Detection> = without_doubles(furniture).into_iter().map(rounded).collect();
         // Two witnesses: what was learned misses tall thin things, the usual measures miss small ones of odd colour.
@@ -132,8 +137,13 @@ impl Detector {
         named.collect()
     }
 
-    fn piece(&self, parts: &Parts, number: u32, segment: &Segment, measured: &Measured) -> Option<Detection> {
-        let chances = self.model.category.probabilities(&measured.features);
+    fn piece(
+        &self,
+        parts: &Parts,
+        (number, segment): (u32, &Segment),
+        measured: &Measured,
+        chances: &[f32],
+    ) -> Option<Detection> {
         if chances[NOTHING] > MOST_NOTHING {
             return None;
         }
@@ -141,13 +151,13 @@ impl Detector {
         let r = segment.rectangle;
         let (length, width) = (measured.measures.long, measured.measures.short);
         let hidden = hidden_sides(&parts.grid, &parts.segments, number, &parts.walls, r.pose, length, width);
-        let facings = facings(&parts.grid, &parts.walls, segment, measured, hidden, &chances);
+        let facings = facings(&parts.grid, &parts.walls, segment, measured, hidden, chances);
         let quarter = self.front(&facings, CATEGORIES[best]);
         let facing = &facings[quarter];
         let turned: Hidden = [0, 1, 2, 3].map(|side| hidden[(side + quarter) % 4]);
         let seen = Footprint { pose: facing.pose, length: facing.length, width: facing.width };
         let whole = seen.completed(turned, measured.measures.height, &self.model.sizes[best], &parts.walls);
-        Some(detection(measured, whole, &chances, best, parts.points.camera))
+        Some(detection(measured, whole, chances, best, parts.points.camera))
     }
 
     /// The quarter turn from the rectangle's heading to the front.
@@ -159,6 +169,11 @@ impl Detector {
         let chance = |i: &usize| self.model.front.probabilities(&facings[*i].features)[1];
         (0..4).max_by(|a, b| chance(a).total_cmp(&chance(b)).then(b.cmp(a))).unwrap_or(0)
     }
+}
+
+/// How likely a piece is one on which things are looked for.
+fn holder_chance(chances: &[f32]) -> f32 {
+    CATEGORIES.iter().zip(chances).filter(|(category, _)| HOLDERS.contains(category)).map(|(_, chance)| chance).sum()
 }
 
 fn detection(measured: &Measured, whole: Footprint, chances: &[f32], best: usize, camera: Pose) -> Detection {

@@ -13,7 +13,7 @@ use crate::record::Detection;
 use crate::world::{OBJECTS, SmallObject};
 
 /// On which furniture things are looked for.
-const HOLDERS: [&str; 9] =
+pub const HOLDERS: [&str; 9] =
     ["table", "dinner_table", "coffee_table", "desk", "nightstand", "dresser", "cabinet", "tv_stand", "stool"];
 /// What is this likely to be one of them is looked at: a statue on a small table passes for a chair's back.
 const LIKELY: f64 = 0.08;
