@@ -123,3 +123,19 @@ fn the_same_seed_trains_the_same_model() {
     };
     assert_eq!(train("one"), train("other"));
 }
+
+#[test]
+fn a_frame_without_a_pose_is_seen_from_over_its_own_floor() {
+    let (_folder, index) = frames(2);
+    let posed = run("perceive", &[&index], "").expect_code(0).records();
+    let bare = changed(&index, |record| record["T_world_cam"] = Value::Null);
+    let seen = run("perceive", &["--folder", &folder_of(&index)], bare).expect_code(0).records();
+    let count = |record: &Value| record["detections"].as_array().expect("a list").len();
+    assert!(posed.iter().any(|record| count(record) > 0));
+    for (bare, posed) in seen.iter().zip(&posed) {
+        assert!(count(bare).abs_diff(count(posed)) <= 1, "{bare}\n{posed}");
+        for detection in bare["detections"].as_array().expect("a list") {
+            assert!(detection["x"].as_f64() > Some(0.0), "ahead of the camera: {detection}");
+        }
+    }
+}
