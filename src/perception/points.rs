@@ -56,6 +56,15 @@ impl Rays {
         Self { turn, centre, step, unit, height, floor: FloorPlane::default() }
     }
 
+    /// Units of depth between which some points lie, with `margin_m` to either side.
+    pub fn depths(&self, points: impl Iterator<Item = [f32; 3]>, margin_m: f32) -> std::ops::RangeInclusive<u16> {
+        let [ahead, left, up] = self.turn.map(|row| row[2]);
+        let depths = points.map(|[x, y, z]| ahead * x + left * y + up * (z - self.height));
+        let (near, far) = depths.fold((f32::INFINITY, 0.0_f32), |(near, far), z| (near.min(z), far.max(z)));
+        // Conversions to u16 saturate.
+        ((near - margin_m) / self.unit) as u16..=((far + margin_m) / self.unit) as u16
+    }
+
     /// The point of one pixel; nothing where no depth came back.
     pub fn point(&self, frame: &RgbdFrame, column: usize, row: usize) -> Option<[f32; 3]> {
         let z = f32::from(frame.depth[row * frame.width + column]) * self.unit;

@@ -15,6 +15,8 @@ const TOPS_M: std::ops::Range<f64> = 0.3..1.15;
 const FARTHEST_M: f64 = 3.2;
 /// Nothing portable is higher, metres.
 const HIGHEST_M: f32 = 0.6;
+/// Pixels nearer or farther than that space by this need no second look, metres.
+const DEPTH_MARGIN_M: f32 = 0.2;
 /// Smaller tops hold nothing, square metres.
 const LEAST_TOP_M2: f64 = 0.05;
 /// Fewer pixels are noise.
@@ -44,6 +46,16 @@ struct Top {
     height: f32,
     pose: Pose,
     half: Vec2,
+}
+
+impl Top {
+    /// The corners of the space in which things on it are looked for.
+    fn corners(&self) -> impl Iterator<Item = [f32; 3]> {
+        let sides = [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)];
+        let corners = sides.map(|(a, b)| self.pose.to_world(vec2(a * self.half.x, b * self.half.y)));
+        let level = |up: f32| corners.map(|corner| [corner.x as f32, corner.y as f32, self.height + up]);
+        [level(0.0), level(HIGHEST_M)].concat().into_iter()
+    }
 }
 
 /// The things on one piece whose plate lies at `plate` metres.
@@ -85,8 +97,13 @@ impl Patch {
         let (px, py) = (top.pose.x as f32, top.pose.y as f32);
         let half = [top.half.x as f32, top.half.y as f32];
         let mut places = Vec::with_capacity((right - left) * (below - above));
+        let depths = points.rays.depths(top.corners(), DEPTH_MARGIN_M);
         for row in above..below {
             for column in left..right {
+                if !depths.contains(&frame.depth[row * frame.width + column]) {
+                    places.push(None);
+                    continue;
+                }
                 let over = points.rays.point(frame, column, row).filter(|[x, y, z]| {
                     let (dx, dy, up) = (x - px, y - py, z - top.height);
                     (cos * dx + sin * dy).abs() < half[0]
