@@ -12,6 +12,7 @@ mod approach;
 mod beliefs;
 mod driving;
 mod executive;
+mod getting_clear;
 mod glimpses;
 mod journal;
 mod localizer;
