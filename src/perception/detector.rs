@@ -55,11 +55,17 @@ pub(super) struct Parts {
     pub segments: Segments,
 }
 
-/// A frame as far as it can be read without a model.
-pub(super) fn surfaces(frame: &RgbdFrame, map: Option<&RoomMap>) -> (Points, FloorGrid, Vec<Wall>, Joining) {
+/// A frame's points, floor and walls.
+pub(super) fn room(frame: &RgbdFrame, map: Option<&RoomMap>) -> (Points, FloorGrid, Vec<Wall>) {
     let points = points(frame);
     let grid = project(frame, &points);
     let walls = walls(&grid, &points, map);
+    (points, grid, walls)
+}
+
+/// A frame as far as it can be read without a model.
+pub(super) fn surfaces(frame: &RgbdFrame, map: Option<&RoomMap>) -> (Points, FloorGrid, Vec<Wall>, Joining) {
+    let (points, grid, walls) = room(frame, map);
     let (patches, patch_of) = patches(&grid, &furniture_cells(&grid, &walls));
     let joining = Joining::new(&grid, patches, &patch_of);
     (points, grid, walls, joining)

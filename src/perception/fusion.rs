@@ -30,9 +30,14 @@ pub struct FurnitureMap {
 /// One piece, and every view of it.
 #[derive(Clone, Debug)]
 struct Track {
-    views: Vec<Detection>,
-    /// The frame of each view.
-    frames: Vec<usize>,
+    views: Vec<View>,
+}
+
+/// What one frame shows of a piece.
+#[derive(Clone, Debug)]
+struct View {
+    frame: usize,
+    seen: Detection,
 }
 
 impl FurnitureMap {
@@ -51,13 +56,12 @@ impl FurnitureMap {
         for (_, i, j) in pairs {
             if !taken[i] && !matched[j] {
                 (taken[i], matched[j]) = (true, true);
-                self.tracks[j].views.push(furniture[i].clone());
-                self.tracks[j].frames.push(self.frames);
+                self.tracks[j].views.push(View { frame: self.frames, seen: furniture[i].clone() });
             }
         }
         let fresh = furniture.iter().zip(&taken).filter(|(_, taken)| !**taken);
-        let frames = vec![self.frames];
-        self.tracks.extend(fresh.map(|(view, _)| Track { views: vec![view.clone()], frames: frames.clone() }));
+        let begun = fresh.map(|(seen, _)| Track { views: vec![View { frame: self.frames, seen: seen.clone() }] });
+        self.tracks.extend(begun);
         self.frames += 1;
     }
 
@@ -70,7 +74,8 @@ impl FurnitureMap {
         furniture
     }
 
-    /// Two tracks that began apart and grew into one another are one, unless one frame showed both, one on the other: a lamp on its table.
+    /// Two tracks that began apart and grew into one another are one, unless one frame showed both, one on the other:
+    /// a lamp on its table.
     fn join_doubles(&mut self) {
         let mut first = 0;
         while first < self.tracks.len() {
@@ -84,7 +89,6 @@ impl FurnitureMap {
                 Some(other) => {
                     let gone = self.tracks.remove(other);
                     self.tracks[first].views.extend(gone.views);
-                    self.tracks[first].frames.extend(gone.frames);
                 }
                 None => first += 1,
             }
@@ -94,19 +98,23 @@ impl FurnitureMap {
 
 impl Track {
     fn was_seen_with(&self, other: &Self) -> bool {
-        self.frames.iter().any(|frame| other.frames.contains(frame))
+        self.views.iter().any(|view| other.views.iter().any(|theirs| theirs.frame == view.frame))
+    }
+
+    fn seen(&self) -> impl Iterator<Item = &Detection> {
+        self.views.iter().map(|view| &view.seen)
     }
 
     fn fused(&self) -> Detection {
         let scores = self.scores();
         let best = scores.iter().fold(("", 0.0), |best, (name, p)| if *p > best.1 { (name, *p) } else { best });
-        let surest =
-            self.views.iter().fold(&self.views[0], |s, view| if view.confidence > s.confidence { view } else { s });
+        let first = &self.views[0].seen;
+        let surest = self.seen().fold(first, |s, view| if view.confidence > s.confidence { view } else { s });
         // The surest view of the category that won tells how it stands.
-        let of_best = self.views.iter().filter(|view| view.category == best.0);
+        let of_best = self.seen().filter(|view| view.category == best.0);
         let model = of_best.fold(None::<&Detection>, |s, v| s.filter(|s| s.confidence >= v.confidence).or(Some(v)));
         let model = model.unwrap_or(surest);
-        let missed = self.views.iter().map(|view| 1.0 - view.confidence).product::<f64>();
+        let missed = self.seen().map(|view| 1.0 - view.confidence).product::<f64>();
         let (pose, [length, width, height]) = self.average(model, best.0);
         let mut fused = Detection {
             category: best.0.to_string(),
@@ -132,12 +140,12 @@ impl Track {
 
     /// The product of the views' posteriors, each weighed by how sure it is that there is furniture at all.
     fn scores(&self) -> BTreeMap<String, f64> {
-        let names: Vec<&String> = self.views.iter().flat_map(|view| view.scores.keys()).collect();
+        let names: Vec<&String> = self.seen().flat_map(|view| view.scores.keys()).collect();
         let mut logs: BTreeMap<String, f64> = names.into_iter().map(|name| (name.clone(), 0.0)).collect();
         for (name, log) in &mut logs {
             let chance = |view: &Detection| view.scores.get(name).copied().unwrap_or(0.0).max(UNNAMED);
             let power = if self.views.len() > 1 { INDEPENDENCE } else { 1.0 };
-            *log = self.views.iter().map(|view| chance(view).ln() * power).sum();
+            *log = self.seen().map(|view| chance(view).ln() * power).sum();
         }
         let most = logs.values().copied().fold(f64::NEG_INFINITY, f64::max);
         let sum: f64 = logs.values().map(|log| (log - most).exp()).sum();
@@ -149,7 +157,7 @@ impl Track {
         let heading = heading(model);
         let (mut middle, mut sides, mut total) = (Vec2::zeros(), [0.0; 3], 0.0);
         let (mut sin, mut cos) = (0.0, 0.0);
-        for view in &self.views {
+        for view in self.seen() {
             let turn = self::heading(view) - heading;
             let quarter = (turn / std::f64::consts::FRAC_PI_2).round();
             let off = wrap_angle(turn - quarter * std::f64::consts::FRAC_PI_2);

@@ -1,6 +1,6 @@
 //! Pieces from a true segmentation, in place of the detector's own.
 
-use super::detector::{Parts, surfaces};
+use super::detector::{Parts, room};
 use super::floor_grid::{FloorGrid, NOWHERE};
 use super::patches::Sums;
 use super::points::{Points, STRIDE};
@@ -10,7 +10,7 @@ use crate::world::RoomMap;
 
 /// A frame cut into the items that its pixels are said to belong to, in one pass; 0 is no item.
 pub(super) fn parts_of_items(frame: &RgbdFrame, map: Option<&RoomMap>, item_of: &[u16]) -> Parts {
-    let (points, grid, walls, _) = surfaces(frame, map);
+    let (points, grid, walls) = room(frame, map);
     let mut groups: Vec<(Vec<u32>, Sums)> = Vec::new();
     for (cell, item) in item_of_cells(frame, &points, &grid, item_of).into_iter().enumerate() {
         if item == 0 {
