@@ -1,6 +1,6 @@
 //! How the pilot turns and drives along a way.
 
-use super::beliefs::Furniture;
+use super::furniture::Furniture;
 use super::getting_clear::{GUARD_M, TURNING_M, heard_at};
 use super::pilot::{Halt, PLAIN_VIEW_M, Pilot, SWING_M, TICK_S};
 use super::route::{length, route};
@@ -12,12 +12,15 @@ const TICKS_PER_GLIMPSE: usize = 6;
 const ROOMY_M: f64 = 0.52;
 /// What a detour for room may cost, a share of the way.
 const DETOUR: f64 = 1.25;
-/// What a route may shrink to before it is planned anew, metres.
-const LEAST_M: f64 = 0.39;
-/// Where there is no wider way, as through a door of 0.9 m, this must do, metres.
-pub(super) const NARROW_M: f64 = LEAST_M + 0.01;
+/// Where there is no wider way, as through a door of 0.9 m, this must do, metres; and where there is none so wide, and
+/// the robot is bold, this: it has room to drive, and before a turn it makes room.
+pub const NARROW_M: f64 = 0.4;
+const BOLD_M: f64 = 0.36;
+/// What a route may shrink by before it is planned anew, metres.
+const SHRINKS_M: f64 = 0.01;
 /// Speeds and the braking they count on.
 const SPEED_M_S: f64 = 0.5;
+const BOLD_M_S: f64 = 0.25;
 pub(super) const CREEP_M_S: f64 = 0.1;
 const TURN_RAD_S: f64 = 1.2;
 const BRAKE_M_S2: f64 = 0.25;
@@ -145,11 +148,16 @@ impl Pilot<'_> {
         Ok(())
     }
 
+    /// What a way must keep clear where there is no wider one, metres.
+    pub(super) fn narrowest(&self) -> f64 {
+        if self.is_bold { BOLD_M } else { NARROW_M }
+    }
+
     /// The roomy way, unless it leads elsewhere or far about; when what the sonars met closes every way, without that.
     fn way_to(&mut self, goal: Vec2) -> Option<Vec<Vec2>> {
         let here = self.pose().position();
-        let to_goal =
-            |grid: &ClearanceGrid| [SWING_M, NARROW_M].into_iter().find_map(|clear| route(grid, here, goal, clear));
+        let widths = [SWING_M, self.narrowest()];
+        let to_goal = |grid: &ClearanceGrid| widths.into_iter().find_map(|clear| route(grid, here, goal, clear));
         let mut narrow = to_goal(&self.grid);
         if narrow.is_none() && !self.beliefs.bumps.is_empty() {
             self.because("what the sonars met leaves no way; it may have gone");
@@ -193,7 +201,9 @@ impl Pilot<'_> {
                 return self.met_something();
             }
             let distance = self.pose().distance_to(point);
-            let fastest = (2.0 * BRAKE_M_S2 * distance.min(free.max(0.0))).sqrt().clamp(0.05, SPEED_M_S);
+            let fastest = (2.0 * BRAKE_M_S2 * distance.min(free.max(0.0)))
+                .sqrt()
+                .clamp(0.05, if self.is_bold { BOLD_M_S } else { SPEED_M_S });
             self.tick(fastest * off.cos().max(0.0), (1.5 * off).clamp(-TURN_RAD_S, TURN_RAD_S))?;
             if self.is_held() {
                 self.touched()?;
@@ -210,10 +220,11 @@ impl Pilot<'_> {
     /// Where the robot stands too near to something already, the way must only lead no nearer to it.
     fn still_clear(&self, rest: &[Vec2]) -> bool {
         let mut at = self.pose().position();
-        let mut least = LEAST_M.min(self.grid.clearance(self.grid.cell(at)));
+        let narrowest = self.narrowest() - SHRINKS_M;
+        let mut least = narrowest.min(self.grid.clearance(self.grid.cell(at)));
         rest.iter().all(|&point| {
             let clear = self.grid.clearance_along(at, point) >= least;
-            (at, least) = (point, LEAST_M);
+            (at, least) = (point, narrowest);
             clear
         })
     }

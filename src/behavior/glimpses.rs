@@ -65,6 +65,11 @@ impl Glimpses {
         most.followed = true;
         Some(most.at)
     }
+
+    /// Forgets that any place was gone to.
+    pub fn follow_anew(&mut self) {
+        self.seen.iter_mut().for_each(|glimpse| glimpse.followed = false);
+    }
 }
 
 impl Glimpse {

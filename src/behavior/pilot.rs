@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::localizer::Localizer;
-use super::{Beliefs, Journal, Watcher};
+use super::{Beliefs, Journal, Watcher, Ways};
 use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, segments_touch, wrap_angle};
 use crate::perception::{Eyes, View};
 use crate::robot::{MobileBase, RobotError};
@@ -55,6 +55,8 @@ pub struct Pilot<'a> {
     pub(super) grid: ClearanceGrid,
     /// Outlines of all furniture seen, which the sonars may hear instead of a wall.
     outlines: Vec<Polygon>,
+    /// Whether outlines are taken at their word: nothing is thought to reach beyond them.
+    pub(super) is_bold: bool,
     time_limit_s: f64,
     view: View,
     /// What has been seen so far.
@@ -85,6 +87,7 @@ impl<'a> Pilot<'a> {
             rooms_only,
             grid,
             outlines: Vec::new(),
+            is_bold: false,
             time_limit_s,
             view,
             beliefs,
@@ -107,9 +110,10 @@ impl<'a> Pilot<'a> {
         &self.grid
     }
 
-    /// The grid of the rooms alone.
-    pub fn rooms(&self) -> &ClearanceGrid {
-        &self.rooms_only
+    /// Where the robot is and can go.
+    pub fn ways(&self) -> Ways<'_> {
+        let (grid, rooms) = (&self.grid, &self.rooms_only);
+        Ways { grid, rooms, from: self.pose().position(), narrowest: self.narrowest() }
     }
 
     /// What the last look showed.
@@ -154,7 +158,8 @@ impl<'a> Pilot<'a> {
         }
         self.watcher.seen(time_s, &view);
         let taken_in = self.beliefs.take_in(&view, self.localizer.pose().position());
-        let changed = self.doubt(&view) || taken_in;
+        let cleared = self.eyes.frame().is_some_and(|frame| self.beliefs.clear(frame));
+        let changed = self.doubt(&view) || taken_in || cleared;
         self.view = view;
         if changed {
             self.rebuild_grid();
@@ -179,12 +184,19 @@ impl<'a> Pilot<'a> {
         })
     }
 
+    /// From now on takes outlines at their word, where the margins about them leave no way.
+    pub fn be_bold(&mut self) {
+        self.is_bold = true;
+        self.rebuild_grid();
+    }
+
     pub(super) fn rebuild_grid(&mut self) {
         let there = self.beliefs.furniture.iter().filter(|furniture| !furniture.is_refuted());
         self.outlines.clear();
         self.grid = self.rooms_only.clone();
         for furniture in there {
-            self.grid.add_about(&furniture.footprint, furniture.margin());
+            let margin = if self.is_bold { 0.0 } else { furniture.margin() };
+            self.beliefs.free_space.add_to(&mut self.grid, &furniture.footprint, margin);
             self.outlines.push(furniture.footprint.clone());
         }
         for &bump in &self.beliefs.bumps {

@@ -4,10 +4,9 @@
 use std::f64::consts::PI;
 
 use super::Halt;
-use super::approach::{better_view, vantage, viewpoints};
-use super::beliefs::SAME_THING_M;
 use super::executive::{Executive, SWEEP_RAD, Task};
 use super::motion::RoomFrame;
+use super::names::SAME_THING_M;
 use super::regions::lookouts;
 use super::relation::Place;
 use super::search::{Ranked, Wanted, blame, rank, references};
@@ -54,8 +53,12 @@ impl Executive<'_> {
             }
         }
         self.pilot.because("a look may have missed it; looking at everything once more, from other sides");
+        self.pilot.be_bold();
         self.pilot.beliefs.search_anew();
         if let Some(found) = self.try_all(task, room, arrived)? {
+            return Ok(Ok(found));
+        }
+        if let Some(found) = self.follow_glimpses(task)? {
             return Ok(Ok(found));
         }
         let object = task.object.unwrap_or("any portable object").replace('_', " ");
@@ -82,14 +85,12 @@ impl Executive<'_> {
     fn follow_glimpses(&mut self, task: &Task) -> Result<Option<String>, Halt> {
         let Some(name) = task.object.filter(|_| !self.options.no_glance) else { return Ok(None) };
         while let Some(at) = self.pilot.beliefs.glimpses.follow(name) {
-            let here = self.pilot.pose().position();
-            let Some(pose) = better_view(self.pilot.grid(), self.pilot.rooms(), here, at) else { continue };
+            let Some(pose) = self.pilot.ways().better_view(at) else { continue };
             let spoken = name.replace('_', " ");
             self.pilot
                 .because(format!("something like a {spoken} was seen at ({:.1}, {:.1}); going there", at.x, at.y));
-            match self.pilot.go_to_pose(pose) {
-                Err(Halt::Blocked(_)) => continue,
-                other => other?,
+            if !unless_blocked(self.pilot.go_to_pose(pose))? {
+                continue;
             }
             self.approached.push(at);
             let spot = Polygon::rectangle(Pose::new(at.x, at.y, 0.0), 0.2, 0.2);
@@ -132,12 +133,11 @@ impl Executive<'_> {
             let Some(rival) = rivals.max_by(|a, b| a.at_best.total_cmp(&b.at_best)) else { return Ok(()) };
             let (index, label) = (rival.index, furniture[rival.index].label());
             self.pilot.beliefs.furniture[index].studied = true;
-            let (here, piece) = (self.pilot.pose(), self.pilot.beliefs.furniture[index].clone());
-            let Some(pose) = vantage(self.pilot.grid(), self.pilot.rooms(), here.position(), &piece) else { continue };
+            let piece = &self.pilot.beliefs.furniture[index];
+            let Some(pose) = self.pilot.ways().vantage(piece) else { continue };
             self.pilot.because(format!("{label} would fit better, if it is what the words say; looking at it closely"));
-            match self.pilot.go_to_pose(pose) {
-                Err(Halt::Blocked(_)) => continue,
-                other => other?,
+            if !unless_blocked(self.pilot.go_to_pose(pose))? {
+                continue;
             }
             self.pilot.look();
         }
@@ -155,11 +155,7 @@ impl Executive<'_> {
     }
 
     fn look_round_at(&mut self, lookout: Vec2) -> Result<(), Halt> {
-        match self.pilot.go_to(lookout) {
-            Ok(()) => self.pilot.sweep(PI),
-            Err(Halt::Blocked(_)) => Ok(()),
-            Err(halt) => Err(halt),
-        }
+        if unless_blocked(self.pilot.go_to(lookout))? { self.pilot.sweep(PI) } else { Ok(()) }
     }
 
     fn try_candidates(
@@ -210,17 +206,15 @@ impl Executive<'_> {
     fn check(&mut self, index: usize, object: Option<&str>) -> Result<Option<String>, Halt> {
         let furniture = self.pilot.beliefs.furniture[index].clone();
         self.pilot.beliefs.furniture[index].searched = true;
-        let here = self.pilot.pose().position();
-        let mut poses = viewpoints(self.pilot.grid(), self.pilot.rooms(), here, &furniture);
+        let mut poses = self.pilot.ways().viewpoints(&furniture);
         // What lies at its edge may lie on something else, not known yet.
         let seen = object.and_then(|name| self.pilot.beliefs.sighting(Some(name))).map(|s| vec2(s.x, s.y));
         let there = seen.filter(|&point| self.pilot.beliefs.under(point) == Some(index));
-        poses.extend(there.and_then(|at| better_view(self.pilot.grid(), self.pilot.rooms(), here, at)));
+        poses.extend(there.and_then(|at| self.pilot.ways().better_view(at)));
         let mut reached = false;
         for pose in poses {
-            match self.pilot.go_to_pose(pose) {
-                Err(Halt::Blocked(_)) => continue,
-                other => other?,
+            if !unless_blocked(self.pilot.go_to_pose(pose))? {
+                continue;
             }
             if !reached {
                 self.approached.push(furniture.centre());
@@ -257,15 +251,12 @@ impl Executive<'_> {
             {
                 return Ok(Some(facing));
             }
-            let here = self.pilot.pose().position();
-            let Some(better) = better_view(self.pilot.grid(), self.pilot.rooms(), here, vec2(sighting.x, sighting.y))
-            else {
+            let Some(better) = self.pilot.ways().better_view(vec2(sighting.x, sighting.y)) else {
                 return Ok(None);
             };
             self.pilot.because("something is there that cannot be told from here; looking from a better place");
-            match self.pilot.go_to_pose(better) {
-                Err(Halt::Blocked(_)) => return Ok(None),
-                other => other?,
+            if !unless_blocked(self.pilot.go_to_pose(better))? {
+                return Ok(None);
             }
         }
         let last = self.sighted(footprint, object).filter(|sighting| sighting.recognisable);
@@ -296,6 +287,15 @@ impl Executive<'_> {
         let named = |s: &&ObjectSighting| object.is_none_or(|name| s.name == name);
         let seen = || self.pilot.view().objects.iter().filter(named).filter(on_it);
         seen().find(|s| s.recognisable).or_else(|| seen().next()).cloned()
+    }
+}
+
+/// Whether the robot got there; that there was no way is no reason to end.
+fn unless_blocked(gone: Result<(), Halt>) -> Result<bool, Halt> {
+    match gone {
+        Ok(()) => Ok(true),
+        Err(Halt::Blocked(_)) => Ok(false),
+        Err(halt) => Err(halt),
     }
 }
 

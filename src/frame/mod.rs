@@ -5,6 +5,7 @@
 
 mod decode;
 mod png;
+mod projection;
 
 pub use decode::{Picture, decode_color, decode_depth};
 pub use png::{grey_png, rgb_png};

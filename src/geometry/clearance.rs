@@ -54,6 +54,15 @@ impl ClearanceGrid {
         });
     }
 
+    /// Adds solid squares of side `side_m` about their middles.
+    pub fn add_squares(&mut self, middles: impl Iterator<Item = Vec2>, side_m: f64) {
+        let half = Vec2::repeat(side_m / 2.0);
+        for middle in middles {
+            let (low, high) = (middle - half, middle + half);
+            self.lower(low, high, |point, _| (low - point).sup(&(point - high)).sup(&Vec2::zeros()).norm());
+        }
+    }
+
     /// `distance` is told whether the point lies beyond the box from `low` to `high`, that holds the obstacle.
     fn lower(&mut self, low: Vec2, high: Vec2, distance: impl Fn(Vec2, bool) -> f64) {
         let reach = Vec2::repeat(self.reach_m);
@@ -120,6 +129,19 @@ mod tests {
         grid.add_about(&Polygon::rectangle(Pose::new(2.0, 2.0, 0.0), 1.0, 1.0), 0.2);
         let at = |x, y| grid.clearance(grid.cell(vec2(x, y)));
         assert!((at(2.05, 0.55) - 0.75).abs() < 1e-6 && at(2.05, 1.45) == 0.0);
+    }
+
+    #[test]
+    fn squares_side_by_side_are_one_obstacle() {
+        let mut grid = ClearanceGrid::new(vec2(0.0, 0.0), vec2(4.0, 4.0), 0.1, 1.0);
+        let mut alike = grid.clone();
+        grid.add_squares(
+            (0..20).flat_map(|x| (0..10).map(move |y| vec2(1.525 + 0.05 * f64::from(x), 1.025 + 0.05 * f64::from(y)))),
+            0.05,
+        );
+        alike.add_polygon(&Polygon::rectangle(Pose::new(2.0, 1.25, 0.0), 1.0, 0.5));
+        let cells = (0..40).flat_map(|x| (0..40).map(move |y| (x, y)));
+        assert!(cells.into_iter().all(|cell| (grid.clearance(cell) - alike.clearance(cell)).abs() < 1e-6));
     }
 
     #[test]

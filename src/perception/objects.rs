@@ -34,43 +34,15 @@ const RECOGNISABLE: (usize, usize, f64) = (45, 3, 1.9);
 /// What fits no usual object better than this is not named for sure.
 const WORST_FIT: f64 = 14.0;
 
-/// Where the pixels of a frame lie in the world.
-struct Geometry<'f> {
-    frame: &'f RgbdFrame,
-}
-
-impl Geometry<'_> {
-    /// The ray of a pixel: world direction per metre of depth.
-    fn ray(&self, column: usize, row: usize) -> [f64; 3] {
-        let i = &self.frame.intrinsics;
-        let (x, y) = ((column as f64 - i.cx) / i.fx, (row as f64 - i.cy) / i.fy);
-        let m = &self.frame.world_from_camera;
-        [0, 1, 2].map(|k| m[k][0] * x + m[k][1] * y + m[k][2])
-    }
-
-    fn eye(&self) -> [f64; 3] {
-        [0, 1, 2].map(|k| self.frame.world_from_camera[k][3])
-    }
-
-    /// The points of a row from one column on, with their columns and depths in metres.
-    fn points(&self, row: usize, columns: Range<usize>) -> impl Iterator<Item = (usize, [f64; 3], f64)> {
-        let (eye, first) = (self.eye(), self.ray(columns.start, row));
-        let step = [0, 1, 2].map(|k| self.frame.world_from_camera[k][0] / self.frame.intrinsics.fx);
-        let depths = &self.frame.depth[row * self.frame.width..][columns.clone()];
-        columns.clone().zip(depths).filter(|(_, depth)| **depth > 0).map(move |(column, &depth)| {
-            let (z, on) = (f64::from(depth) * self.frame.depth_unit_m, (column - columns.start) as f64);
-            (column, [0, 1, 2].map(|k| eye[k] + (first[k] + on * step[k]) * z), z)
-        })
-    }
-
-    /// Column and row of a point; nothing behind the camera.
-    fn pixel(&self, point: [f64; 3]) -> Option<(f64, f64)> {
-        let (m, eye) = (&self.frame.world_from_camera, self.eye());
-        let d = [0, 1, 2].map(|k| point[k] - eye[k]);
-        let [x, y, z] = [0, 1, 2].map(|axis| (0..3).map(|k| m[k][axis] * d[k]).sum::<f64>());
-        let i = &self.frame.intrinsics;
-        (z > 0.2).then(|| (i.cx + i.fx * x / z, i.cy + i.fy * y / z))
-    }
+/// The points of a row from one column on, with their columns and depths in metres.
+fn points_of_row(frame: &RgbdFrame, row: usize, columns: Range<usize>) -> impl Iterator<Item = (usize, [f64; 3], f64)> {
+    let (eye, first) = (frame.eye(), frame.ray(columns.start, row));
+    let step = [0, 1, 2].map(|k| frame.world_from_camera[k][0] / frame.intrinsics.fx);
+    let depths = &frame.depth[row * frame.width..][columns.clone()];
+    columns.clone().zip(depths).filter(|(_, depth)| **depth > 0).map(move |(column, &depth)| {
+        let (z, on) = (f64::from(depth) * frame.depth_unit_m, (column - columns.start) as f64);
+        (column, [0, 1, 2].map(|k| eye[k] + (first[k] + on * step[k]) * z), z)
+    })
 }
 
 /// One pixel that shows something on a plate.
@@ -107,26 +79,25 @@ fn may_hold_things(detection: &Detection) -> bool {
 }
 
 fn on_top(frame: &RgbdFrame, detection: &Detection) -> Vec<ObjectSighting> {
-    let geometry = Geometry { frame };
     let footprint = Polygon::new(detection.footprint.iter().map(|&[x, y]| vec2(x, y)).collect());
-    let Some(window) = window(&geometry, &footprint) else { return Vec::new() };
-    let points = points_over(&geometry, &Inside::of(&footprint), window);
+    let Some(window) = window(frame, &footprint) else { return Vec::new() };
+    let points = points_over(frame, &Inside::of(&footprint), window);
     let Some(plate) = plate_height(&points) else { return Vec::new() };
     let spots = spots(frame, &points, plate);
-    blobs(&spots, window).iter().filter_map(|blob| sighting(&geometry, blob)).collect()
+    blobs(&spots, window).iter().filter_map(|blob| sighting(frame, blob)).collect()
 }
 
 /// Columns and rows in which a footprint can show, from the floor to the tallest object.
-fn window(geometry: &Geometry, footprint: &Polygon) -> Option<[usize; 4]> {
+fn window(frame: &RgbdFrame, footprint: &Polygon) -> Option<[usize; 4]> {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for corner in footprint.corners() {
         for z in [PLATE_M.0, PLATE_M.1 + TALLEST_M] {
-            let (column, row) = geometry.pixel([corner.x, corner.y, z])?;
+            let (column, row, _) = frame.pixel([corner.x, corner.y, z])?;
             low = [low[0].min(column), low[1].min(row)];
             high = [high[0].max(column), high[1].max(row)];
         }
     }
-    let (width, height) = (geometry.frame.width as f64, geometry.frame.height as f64);
+    let (width, height) = (frame.width as f64, frame.height as f64);
     let clamped = [low[0].max(0.0), low[1].max(0.0), (high[0] + 1.0).min(width), (high[1] + 1.0).min(height)];
     (footprint.corners().len() > 2 && clamped[0] < clamped[2] && clamped[1] < clamped[3])
         .then(|| clamped.map(|v| v as usize))
@@ -134,14 +105,16 @@ fn window(geometry: &Geometry, footprint: &Polygon) -> Option<[usize; 4]> {
 
 /// The points in the window that lie over the footprint less its rim, with their pixels and depths.
 fn points_over(
-    geometry: &Geometry,
+    frame: &RgbdFrame,
     inside: &Inside,
     [left, top, right, low]: [usize; 4],
 ) -> Vec<(usize, usize, [f64; 3], f64)> {
     let heights = PLATE_M.0..PLATE_M.1 + TALLEST_M;
     let over = |(_, point, _): &(usize, [f64; 3], f64)| heights.contains(&point[2]) && inside.has(point[0], point[1]);
     let row = |row: usize| {
-        geometry.points(row, left..right).filter(over).map(move |(column, point, depth)| (column, row, point, depth))
+        points_of_row(frame, row, left..right)
+            .filter(over)
+            .map(move |(column, point, depth)| (column, row, point, depth))
     };
     (top..low).flat_map(row).collect()
 }
@@ -269,8 +242,7 @@ struct Looks {
     color: [u8; 3],
 }
 
-fn sighting(geometry: &Geometry, blob: &[Spot]) -> Option<ObjectSighting> {
-    let frame = geometry.frame;
+fn sighting(frame: &RgbdFrame, blob: &[Spot]) -> Option<ObjectSighting> {
     let color = median_color(blob.iter().map(|s| frame.color[s.row * frame.width + s.column]))?;
     let mut heights: Vec<f64> = blob.iter().map(|s| s.height).collect();
     heights.sort_by(f64::total_cmp);
@@ -278,7 +250,7 @@ fn sighting(geometry: &Geometry, blob: &[Spot]) -> Option<ObjectSighting> {
     let looks = Looks { extent: extent(blob), height, color };
     let (object, cost) = OBJECTS.iter().map(|o| (o, misfit(o, &looks))).min_by(|a, b| a.1.total_cmp(&b.1))?;
     let middle = blob.iter().map(|s| s.at).sum::<Vec2>() / blob.len() as f64;
-    let eye = geometry.eye();
+    let eye = frame.eye();
     let (pixels, border, range) = RECOGNISABLE;
     let within = |s: &Spot| {
         s.column >= border && s.row >= border && s.column + border < frame.width && s.row + border < frame.height

@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use super::Home;
-use crate::behavior::{Beliefs, Furniture, SWING_M, grid_of, length, route, viewpoints};
+use crate::behavior::{Beliefs, NARROW_M, SWING_M, Ways, grid_of, length, route};
 use crate::geometry::Vec2;
-use crate::perception::View;
 use crate::record::{Detection, Outcome};
 use crate::world::Item;
 
@@ -89,19 +88,13 @@ fn shortest_way(home: &Home, item: &Item) -> Option<f64> {
         grid.add_polygon(&other.footprint());
     }
     let start = home.map.start.position();
-    let piece = as_seen(item)?;
-    let ways = viewpoints(&grid, &rooms, start, &piece).into_iter().filter_map(|pose| {
+    let piece = Beliefs::of(vec![ideal_detection(item)]).furniture.pop()?;
+    let ways = Ways { grid: &grid, rooms: &rooms, from: start, narrowest: NARROW_M };
+    let ways = ways.viewpoints(&piece).into_iter().filter_map(|pose| {
         let way = route(&grid, start, pose.position(), SWING_M)?;
         Some(length(start, &way))
     });
     ways.fold(None, |least: Option<f64>, way| Some(least.map_or(way, |l| l.min(way))))
-}
-
-fn as_seen(item: &Item) -> Option<Furniture> {
-    let mut beliefs = Beliefs::default();
-    let far_off = Vec2::repeat(f64::MAX);
-    beliefs.take_in(&View { furniture: vec![ideal_detection(item)], objects: Vec::new() }, far_off);
-    beliefs.furniture.pop()
 }
 
 /// A piece as eyes without any fault report it, all of it in view.

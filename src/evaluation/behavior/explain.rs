@@ -10,9 +10,8 @@ use crate::behavior::motion::RoomFrame;
 use crate::behavior::search::{Ranked, Wanted, rank};
 use crate::behavior::{Beliefs, Place};
 use crate::evaluation::Rate;
-use crate::geometry::{Pose, Vec2};
+use crate::geometry::Pose;
 use crate::language::Lexicon;
-use crate::perception::View;
 use crate::record::{Action, Frame, Plan, SearchPair};
 use crate::trial::{Home, ideal_detection};
 use crate::world::Item;
@@ -122,11 +121,7 @@ struct Known<'h> {
 
 impl Known<'_> {
     fn rank(&self, wanted: &Wanted) -> Vec<Ranked> {
-        let mut beliefs = Beliefs::default();
-        for item in &self.items {
-            beliefs
-                .take_in(&View { furniture: vec![ideal_detection(item)], objects: Vec::new() }, Vec2::repeat(f64::MAX));
-        }
+        let beliefs = Beliefs::of(self.items.iter().map(|item| ideal_detection(item)).collect());
         rank(&beliefs, wanted, Place { room: &self.frame, arrived: self.arrived }, Lexicon::embedded())
     }
 
