@@ -1,7 +1,7 @@
 //! How the pilot turns and drives along a way.
 
 use super::furniture::Furniture;
-use super::getting_clear::{GUARD_M, TURNING_M, heard_at};
+use super::getting_clear::{End, GUARD_M};
 use super::pilot::{Halt, PLAIN_VIEW_M, Pilot, SWING_M, TICK_S};
 use super::route::{length, route};
 use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, distance_to_segment, wrap_angle};
@@ -21,7 +21,6 @@ const SHRINKS_M: f64 = 0.01;
 /// Speeds and the braking they count on.
 const SPEED_M_S: f64 = 0.5;
 const BOLD_M_S: f64 = 0.25;
-pub(super) const CREEP_M_S: f64 = 0.1;
 const TURN_RAD_S: f64 = 1.2;
 const BRAKE_M_S2: f64 = 0.25;
 const TURN_BRAKE_RAD_S2: f64 = 0.8;
@@ -58,7 +57,7 @@ impl Pilot<'_> {
                 if rescues > MOST_RESCUES {
                     return Err(Halt::Blocked("held fast while turning".to_string()));
                 }
-                self.back_off(self.free_ahead() > self.free_behind())?;
+                self.back_off(self.freer_end())?;
             }
         }
     }
@@ -92,31 +91,33 @@ impl Pilot<'_> {
 
     /// Says what is believed to stand next to the robot, since that is what most often closes a way.
     fn no_way_to(&self, goal: Vec2) -> String {
-        let here = self.pose().position();
-        let away = |f: &&Furniture| f.footprint.distance_to(here);
-        let there = self.beliefs.furniture.iter().filter(|f| !f.is_refuted());
-        let nearest = there.min_by(|a, b| away(a).total_cmp(&away(b)));
-        let what = nearest.map_or(String::new(), |f| format!(", {} stands {:.1} m from here", f.label(), away(&f)));
+        let nearest = self.nearest_piece(|furniture| !furniture.is_refuted());
+        let what = nearest.map_or(String::new(), |(f, away)| format!(", {} stands {away:.1} m from here", f.label()));
         format!("no way to ({:.1}, {:.1}){what}", goal.x, goal.y)
+    }
+
+    /// The nearest piece for which `counts` holds, and how far from its outline the robot is, metres.
+    fn nearest_piece(&self, counts: impl Fn(&Furniture) -> bool) -> Option<(&Furniture, f64)> {
+        let here = self.pose().position();
+        let there = self.beliefs.furniture.iter().filter(|furniture| counts(furniture));
+        there.map(|f| (f, f.footprint.distance_to(here))).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Turns to what was seen once, so near that the camera may look over it, and backs off as far as the sonars allow.
     fn step_back(&mut self) -> Result<(), Halt> {
         let here = self.pose();
-        let away = |f: &&Furniture| f.footprint.distance_to(here.position());
-        let unsure = self.beliefs.furniture.iter().filter(|f| f.is_unsure());
-        let Some(centre) = unsure.min_by(|a, b| away(a).total_cmp(&away(b))).map(Furniture::centre) else {
+        let Some(centre) = self.nearest_piece(Furniture::is_unsure).map(|(furniture, _)| furniture.centre()) else {
             return Ok(());
         };
         // Beside something that is larger than it was believed to be there is no room to turn.
-        if self.base.sonar().iter().any(|reading| heard_at(reading).norm() < TURNING_M) {
+        if self.heard_within_swing().next().is_some() {
             return Ok(());
         }
         if here.bearing_to(centre).abs() > OFF_LINE_RAD {
             self.turn_to(wrap_angle(here.heading + here.bearing_to(centre)))?;
         }
         if here.distance_to(centre) < PLAIN_VIEW_M.start {
-            self.back_off(false)?;
+            self.back_off(End::Rear)?;
         }
         Ok(())
     }

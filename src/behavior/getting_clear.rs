@@ -1,6 +1,5 @@
 //! Getting clear: what the sonars hear close by, what was met or touched, and room for a turn.
 
-use super::driving::CREEP_M_S;
 use super::pilot::{Halt, Pilot, TICK_S};
 use crate::geometry::{Vec2, vec2};
 use crate::robot::{SonarReading, p3dx};
@@ -12,7 +11,9 @@ const GUARD_RAD: f64 = 0.7;
 /// A sonar's range is this old at most, seconds: eight fire one after another.
 const SONAR_AGE_S: f64 = 0.32;
 /// A turn in place needs this much round the wheels' middle, metres.
-pub(super) const TURNING_M: f64 = p3dx::SWING_M + 0.03;
+const TURNING_M: f64 = p3dx::SWING_M + 0.03;
+/// How fast it moves where it sees nothing, metres a second.
+const CREEP_M_S: f64 = 0.1;
 /// How far the robot backs off from what it touched, metres.
 const BACK_OFF_M: f64 = 0.25;
 /// How far it creeps to make room for a turn, metres.
@@ -20,17 +21,42 @@ const MAKE_ROOM_M: f64 = 0.6;
 /// What is heard so little ahead or behind stands abreast, metres.
 const ABREAST_M: f64 = 0.1;
 
+/// The robot's two ends.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum End {
+    Front,
+    Rear,
+}
+
 impl Pilot<'_> {
     /// Metres from the front sonars to what they hear, less what the robot has gone since they fired.
     pub(super) fn free_ahead(&self) -> f64 {
         self.nearest(|bearing| bearing <= GUARD_RAD) - self.base.velocity().0.max(0.0) * SONAR_AGE_S
     }
 
-    pub(super) fn free_behind(&self) -> f64 {
-        self.nearest(|bearing| bearing >= std::f64::consts::PI - GUARD_RAD)
+    /// Metres from the sonars at one end to what they hear.
+    fn free(&self, end: End) -> f64 {
+        match end {
+            End::Front => self.free_ahead(),
+            End::Rear => self.nearest(|bearing| bearing >= std::f64::consts::PI - GUARD_RAD),
+        }
     }
 
-    pub(super) fn nearest(&self, watched: impl Fn(f64) -> bool) -> f64 {
+    /// At which end there is more room.
+    pub(super) fn freer_end(&self) -> End {
+        if self.free(End::Front) > self.free(End::Rear) { End::Front } else { End::Rear }
+    }
+
+    /// What the sonars hear nearer than a turn in place allows, in the robot's frame, metres.
+    pub(super) fn heard_within_swing(&self) -> impl Iterator<Item = Vec2> {
+        self.base.sonar().iter().map(heard_at).filter(|point| point.norm() < TURNING_M)
+    }
+
+    fn creep(&mut self, toward: End) -> Result<(), Halt> {
+        self.tick(if toward == End::Front { CREEP_M_S } else { -CREEP_M_S }, 0.0)
+    }
+
+    fn nearest(&self, watched: impl Fn(f64) -> bool) -> f64 {
         let ranges = self.base.sonar().iter().filter(|r| watched(r.bearing.abs())).map(|r| r.range_m);
         ranges.fold(f64::INFINITY, f64::min)
     }
@@ -66,21 +92,19 @@ impl Pilot<'_> {
         let point = self.pose().to_world(vec2(p3dx::FRONT_M + 0.05, 0.0));
         self.because(format!("touched something at ({:.1}, {:.1}); backing off", point.x, point.y));
         self.beliefs.bumps.push(point);
-        self.back_off(false)?;
+        self.back_off(End::Rear)?;
         self.rebuild_grid();
         Ok(())
     }
 
     /// Creeps a little way back or ahead, as far as the sonars there allow.
-    pub(super) fn back_off(&mut self, ahead: bool) -> Result<(), Halt> {
+    pub(super) fn back_off(&mut self, toward: End) -> Result<(), Halt> {
         let from = self.pose();
-        let speed = if ahead { CREEP_M_S } else { -CREEP_M_S };
         for _ in 0..(2.0 * BACK_OFF_M / CREEP_M_S / TICK_S) as usize {
-            let free = if ahead { self.free_ahead() } else { self.free_behind() };
-            if free < GUARD_M || self.pose().distance_to(from.position()) >= BACK_OFF_M {
+            if self.free(toward) < GUARD_M || self.pose().distance_to(from.position()) >= BACK_OFF_M {
                 break;
             }
-            self.tick(speed, 0.0)?;
+            self.creep(toward)?;
         }
         self.come_to_rest()
     }
@@ -92,19 +116,17 @@ impl Pilot<'_> {
         let (mut past, mut heard) = (None, Vec::new());
         for _ in 0..(MAKE_ROOM_M / CREEP_M_S / TICK_S) as usize {
             let here = self.pose();
-            let within = self.base.sonar().iter().map(heard_at).filter(|point| point.norm() < TURNING_M);
-            heard.extend(within.map(|point| here.to_world(point)));
+            heard.extend(self.heard_within_swing().map(|point| here.to_world(point)));
             let points = heard.iter().map(|&point| here.to_local(point));
             let Some(nearest) = points.min_by(|a, b| a.norm().total_cmp(&b.norm())) else { break };
             let lacks = TURNING_M - nearest.norm();
             let is_abreast = nearest.x.abs() < ABREAST_M;
-            let freer = self.free_ahead() > self.free_behind();
-            let ahead = if is_abreast { *past.get_or_insert(freer) } else { nearest.x < 0.0 };
-            let free = if ahead { self.free_ahead() } else { self.free_behind() };
-            if lacks <= 0.0 || free < GUARD_M + if is_abreast { ABREAST_M } else { lacks } {
+            let away = if nearest.x < 0.0 { End::Front } else { End::Rear };
+            let toward = if is_abreast { *past.get_or_insert(self.freer_end()) } else { away };
+            if lacks <= 0.0 || self.free(toward) < GUARD_M + if is_abreast { ABREAST_M } else { lacks } {
                 break;
             }
-            self.tick(if ahead { CREEP_M_S } else { -CREEP_M_S }, 0.0)?;
+            self.creep(toward)?;
         }
         self.come_to_rest()
     }
@@ -121,6 +143,6 @@ impl Pilot<'_> {
 }
 
 /// Where a reading's echo is, in the robot's frame, metres.
-pub(super) fn heard_at(reading: &SonarReading) -> Vec2 {
+fn heard_at(reading: &SonarReading) -> Vec2 {
     reading.mount + vec2(reading.bearing.cos(), reading.bearing.sin()) * reading.range_m
 }

@@ -154,10 +154,9 @@ fn scattered(map: &RoomMap, scene: &Scene, dice: &mut Dice) -> Option<Scene> {
         let spot = if furnisher.dice().chance(0.5) { Spot::AtWall } else { Spot::Anywhere };
         furnisher.place(item.clone(), &room, spot, |_| true)?;
     }
-    let mut made = furnisher.into_scene();
-    let index = |item: &Item| scene.furniture.iter().position(|other| other.id == item.id);
-    made.furniture.sort_by_key(index);
-    made.objects = scene.objects.clone();
+    let mut furniture = furnisher.into_scene().furniture;
+    furniture.sort_by_key(|item| scene.furniture.iter().position(|other| other.id == item.id));
+    let made = Scene { furniture, ..scene.clone() };
     is_broken(map, scene, &made).then_some(made)
 }
 
@@ -191,6 +190,7 @@ pub(super) fn degrees(radians: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::world::{CameraMount, Noise};
 
     fn made(relations: Relations, seed: u64) -> Scene {
         let (map, scene) = (RoomMap::apartment(), Scene::apartment());
@@ -208,6 +208,17 @@ mod tests {
     fn the_same_seed_makes_the_same_scene_and_another_one_another() {
         assert_eq!(made(Relations::Kept, 3), made(Relations::Kept, 3));
         assert_ne!(made(Relations::Kept, 3), made(Relations::Kept, 4));
+    }
+
+    #[test]
+    fn what_a_scene_says_of_its_robot_stays_as_it_was() {
+        let map = RoomMap::apartment();
+        let (noise, camera) = (Some(Noise::default()), Some(CameraMount::default()));
+        let scene = Scene { noise, camera, ..Scene::apartment() };
+        for relations in [Relations::Kept, Relations::Broken] {
+            let made = rearranged(&map, &scene, relations, &mut Dice::new(1, 0)).expect("an arrangement");
+            assert_eq!((made.noise, made.camera, made.objects), (scene.noise, scene.camera, scene.objects.clone()));
+        }
     }
 
     #[test]
