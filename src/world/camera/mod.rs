@@ -22,6 +22,7 @@ mod faces;
 mod kinect;
 mod noise;
 mod raster;
+mod scatter;
 mod solids;
 mod visibility;
 
