@@ -95,8 +95,8 @@ struct Sensor<'c> {
     depth_of_steps: Vec<u16>,
     /// Noise of the disparity, pixels.
     noise: Table<f32>,
-    /// Lateral noise, pixels, counted from [`AIM`] less.
-    aside: Table<u32>,
+    /// Lateral noise.
+    aside: Aside,
     scatter: Scatter,
     patches: Scatter,
     lost: Vec<u32>,
@@ -110,11 +110,17 @@ struct Line {
     /// Of each column the square of its ray's length, less the row's part.
     across: Vec<f32>,
     bits: Vec<u32>,
+    /// Of the bits, twelve for the lateral noise across and twelve for that down.
+    random: [Vec<u16>; 2],
+    /// Lateral noise, pixels, counted from [`AIM`] less.
+    aside: [Vec<u16>; 2],
+    /// Where the pixel truly looks, as the number of a pixel.
+    places: Vec<u32>,
     /// Whether the projector does not reach it, or its patch is lost.
     blocked: Vec<bool>,
     /// Columns of the projector's rays.
     rays: Vec<f32>,
-    /// Inverse depth and response where the pixel truly looks.
+    /// Inverse depth and response there.
     inverse: Vec<f32>,
     responses: Vec<Response>,
     noise: Vec<f32>,
@@ -134,6 +140,9 @@ impl Line {
         Self {
             across: across.collect(),
             bits: vec![0; length],
+            random: [vec![0; length], vec![0; length]],
+            aside: [vec![0; length], vec![0; length]],
+            places: vec![0; length],
             blocked: vec![false; length],
             rays: vec![0.0; length],
             inverse: vec![0.0; length],
@@ -165,7 +174,7 @@ impl<'c> Sensor<'c> {
             responses,
             depth_of_steps: depth_of_steps(faults.range),
             noise: gaussians.tabled(|deviate| DISPARITY_NOISE * level * deviate),
-            aside: gaussians.tabled(|deviate| (LATERAL_NOISE * level * deviate + AIM as f32 + 0.5) as u32),
+            aside: Aside::new(gaussians, level),
             scatter: Scatter::new(seed),
             patches: Scatter::new(seed ^ 0x5EED),
             lost: vec![0; canvas.width.div_ceil(PATCH)],
@@ -199,22 +208,19 @@ impl<'c> Sensor<'c> {
     /// Draws the random bits of a row, and sees what its pixels look at.
     fn look(&mut self, row: usize) {
         let (canvas, line) = (self.canvas, &mut self.line);
-        let bits = &mut line.bits[..canvas.width];
-        self.scatter.fill(bits);
-        let seen = line.inverse.iter_mut().zip(&mut line.responses).zip(&mut line.noise);
-        for ((column, bits), ((inverse, response), noise)) in bits.iter().enumerate().zip(seen) {
-            let mut at = row * canvas.width + column;
-            if self.faults.noise > 0.0 {
-                // Lateral noise mixes up neighbours.
-                let aimed = |here: usize, bits: u32, size: usize| {
-                    (here + self.aside.pick(bits >> 20) as usize).clamp(AIM, size + AIM - 1) - AIM
-                };
-                let x = aimed(column, bits.wrapping_mul(0x9E37_79B1), canvas.width);
-                let y = aimed(row, bits.wrapping_mul(0x85EB_CA77), canvas.height);
-                at = y * canvas.width + x;
-            }
-            *inverse = canvas.inverse[at];
-            *response = self.responses[canvas.face[at] as usize];
+        self.scatter.fill(&mut line.bits[..canvas.width]);
+        if self.faults.noise > 0.0 {
+            aim(line, &self.aside, row, canvas);
+        } else {
+            line.places.iter_mut().zip(row * canvas.width..).for_each(|(place, at)| *place = at as u32);
+        }
+        let (inverse, face, responses) = (&canvas.inverse[..], &canvas.face[..], &self.responses[..]);
+        for ((place, seen), response) in line.places.iter().zip(&mut line.inverse).zip(&mut line.responses) {
+            let place = *place as usize;
+            *seen = inverse[place];
+            *response = responses[face[place] as usize];
+        }
+        for (noise, bits) in line.noise.iter_mut().zip(&line.bits) {
             *noise = self.noise.pick(*bits);
         }
     }
@@ -245,23 +251,73 @@ impl<'c> Sensor<'c> {
     }
 }
 
-/// Marks the pixels whose rays the projector, a baseline to the right, sends behind something nearer.
-fn cast_shadow(rays: &[f32], shadowed: &mut [bool]) {
-    let mut edge = f32::INFINITY;
-    for (rays, shadowed) in rays.rchunks(LANES).zip(shadowed.rchunks_mut(LANES)) {
-        // Mostly the rays of a group lie in order, and none is hidden.
-        let ordered =
-            rays.windows(2).fold(rays[rays.len() - 1] <= edge, |ordered, pair| ordered & (pair[0] <= pair[1]));
-        if ordered {
-            shadowed.fill(false);
-            edge = rays[0];
-            continue;
-        }
-        for (&ray, shadowed) in rays.iter().zip(shadowed).rev() {
-            *shadowed = ray > edge;
-            edge = edge.min(ray);
+/// Lateral noise as a function of twelve random bits: whole pixels, counted from [`AIM`] less.
+struct Aside {
+    least: u16,
+    /// The bits from which on it is one more, and one more again.
+    steps: Vec<u16>,
+}
+
+impl Aside {
+    fn new(gaussians: &Gaussians, level: f32) -> Self {
+        let table = gaussians.tabled(|deviate| (LATERAL_NOISE * level * deviate + AIM as f32 + 0.5) as u16).values;
+        let (least, most) = (table[0], table[table.len() - 1]);
+        let steps = (least + 1..=most).map(|aside| table.partition_point(|other| *other < aside) as u16);
+        Self { least, steps: steps.collect() }
+    }
+}
+
+/// Where the pixels of a row truly look: lateral noise mixes up neighbours.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2", "x86_64+sse4.1"))]
+fn aim(line: &mut Line, aside: &Aside, row: usize, canvas: &Canvas) {
+    let [across, down] = &mut line.random;
+    for ((across, down), bits) in across.iter_mut().zip(down).zip(&line.bits) {
+        *across = (bits.wrapping_mul(0x9E37_79B1) >> 20) as u16;
+        *down = (bits.wrapping_mul(0x85EB_CA77) >> 20) as u16;
+    }
+    for (aimed, random) in line.aside.iter_mut().zip(&line.random) {
+        aimed.fill(aside.least);
+        for step in &aside.steps {
+            aimed.iter_mut().zip(random).for_each(|(aside, random)| *aside += u16::from(random >= step));
         }
     }
+    let [across, down] = &line.aside;
+    let aimed = |here: usize, aside: u16, size: usize| (here as i32 + i32::from(aside) - AIM as i32).clamp(0, size as i32 - 1);
+    for (column, (place, (across, down))) in line.places.iter_mut().zip(across.iter().zip(down)).enumerate() {
+        *place = (aimed(row, *down, canvas.height) * canvas.width as i32 + aimed(column, *across, canvas.width)) as u32;
+    }
+}
+
+/// Marks the pixels whose rays the projector, a baseline to the right, sends behind something nearer.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2", "x86_64+sse4.1"))]
+fn cast_shadow(rays: &[f32], shadowed: &mut [bool]) {
+    let mut edge = f32::INFINITY;
+    let ((rest, groups), (rest_shadowed, groups_shadowed)) =
+        (rays.as_rchunks::<LANES>(), shadowed.as_rchunks_mut::<LANES>());
+    for (rays, shadowed) in groups.iter().zip(groups_shadowed).rev() {
+        // Mostly the rays of a group lie in order, and none is hidden.
+        let mut ordered = rays[LANES - 1] <= edge;
+        for lane in 1..LANES {
+            ordered &= rays[lane - 1] <= rays[lane];
+        }
+        if ordered {
+            *shadowed = [false; LANES];
+            edge = rays[0];
+        } else {
+            edge = hide(rays, shadowed, edge);
+        }
+    }
+    hide(rest, rest_shadowed, edge);
+}
+
+/// Marks those of a run's rays that lie beyond any to their right, of which `edge` is the least so far.
+#[inline(always)]
+fn hide(rays: &[f32], shadowed: &mut [bool], mut edge: f32) -> f32 {
+    for (&ray, shadowed) in rays.iter().zip(shadowed).rev() {
+        *shadowed = ray > edge;
+        edge = if ray < edge { ray } else { edge };
+    }
+    edge
 }
 
 /// Reckons the disparities of a row, `down` being the square of its part of the rays' lengths.
@@ -273,7 +329,7 @@ fn reckon(line: &mut Line, down: f32, faults: &KinectFaults) {
     let others = line.noise.as_chunks::<LANES>().0.iter().zip(line.blocked.as_chunks::<LANES>().0);
     let groups = inverses.zip(lengths).zip(others).zip(line.disparity.as_chunks_mut::<LANES>().0);
     for ((((inverse, responses), (across, bits)), (noise, blocked)), disparity) in groups {
-        let chance = loss(inverse, responses, &across.map(|across| across + down), faults);
+        let chance = loss(inverse, responses, &std::array::from_fn(|lane| across[lane] + down), faults);
         for lane in 0..LANES {
             let returned = (bits[lane] >> 16) as f32 >= single + 65536.0 * chance[lane];
             let seen = returned & (inverse[lane] > 0.0) & !blocked[lane];
@@ -291,8 +347,11 @@ fn loss(
     faults: &KinectFaults,
 ) -> [f32; LANES] {
     let mut chance = [0.0; LANES];
-    let (plane, darkness) = (responses.map(|r| r.plane), responses.map(|r| r.darkness));
-    let upright: [f32; LANES] = std::array::from_fn(|lane| plane[lane] * inverse[lane]);
+    let (mut upright, mut darkness) = ([0.0; LANES], [0.0; LANES]);
+    for lane in 0..LANES {
+        upright[lane] = responses[lane].plane * inverse[lane];
+        darkness[lane] = responses[lane].darkness;
+    }
     let grazing: [bool; LANES] =
         std::array::from_fn(|lane| upright[lane] * upright[lane] < 1.01 * GRAZING.0 * GRAZING.0 * squares[lane]);
     // Nearly all faces are seen at no grazing angle and are not dark: roots and divisions are left out for them.

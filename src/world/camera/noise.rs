@@ -25,7 +25,7 @@ impl Gaussians {
 
 /// Something of normal deviates, made once for many pixels.
 pub(super) struct Table<T> {
-    values: Vec<T>,
+    pub values: Vec<T>,
 }
 
 impl<T: Copy> Table<T> {
