@@ -276,3 +276,17 @@ fn mix_lists(pixels: &mut [[u8; 3]], color: [&[f32]; 3], tone: &[f32], noise: &[
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coordinates_wrap_as_integers_do() {
+        for i in -3000..3000 {
+            for coordinate in [i as f32 * 0.37, i as f32 * 64.0, i as f32 * 12_345.6] {
+                assert_eq!(wrapped(coordinate), (coordinate as i32 & (SIDE as i32 - 1)) as u32, "{coordinate}");
+            }
+        }
+    }
+}

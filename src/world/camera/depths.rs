@@ -12,9 +12,11 @@
 use multiversion::multiversion;
 
 use super::faces::{Face, Texture};
+use super::lateral::Lateral;
 use super::noise::{Gaussians, Table, whole};
 use super::raster::{Canvas, LANES, View};
 use super::scatter::Scatter;
+use super::shadow::cast_shadow;
 
 /// Focal length times baseline, pixels × metres.
 const FOCAL_BASELINE: f32 = 580.0 * 0.075;
@@ -95,8 +97,8 @@ struct Sensor<'c> {
     depth_of_steps: Vec<u16>,
     /// Noise of the disparity, pixels.
     noise: Table<f32>,
-    /// Lateral noise.
-    aside: Aside,
+    /// None when there is none.
+    lateral: Option<Lateral>,
     scatter: Scatter,
     patches: Scatter,
     lost: Vec<u32>,
@@ -110,16 +112,12 @@ struct Line {
     /// Of each column the square of its ray's length, less the row's part.
     across: Vec<f32>,
     bits: Vec<u32>,
-    /// Of the bits, twelve for the lateral noise across and twelve for that down.
-    random: [Vec<u16>; 2],
-    /// Lateral noise, pixels, counted from [`AIM`] less.
-    aside: [Vec<u16>; 2],
-    /// Where the pixel truly looks, as the number of a pixel.
-    places: Vec<u32>,
     /// Whether the projector does not reach it, or its patch is lost.
     blocked: Vec<bool>,
     /// Columns of the projector's rays.
     rays: Vec<f32>,
+    /// Where the pixel truly looks, as the number of a pixel.
+    places: Vec<u32>,
     /// Inverse depth and response there.
     inverse: Vec<f32>,
     responses: Vec<Response>,
@@ -140,11 +138,9 @@ impl Line {
         Self {
             across: across.collect(),
             bits: vec![0; length],
-            random: [vec![0; length], vec![0; length]],
-            aside: [vec![0; length], vec![0; length]],
-            places: vec![0; length],
             blocked: vec![false; length],
             rays: vec![0.0; length],
+            places: vec![0; length],
             inverse: vec![0.0; length],
             responses: vec![Response::default(); length],
             noise: vec![0.0; length],
@@ -153,9 +149,6 @@ impl Line {
         }
     }
 }
-
-/// No pixel looks so far aside.
-const AIM: usize = 16;
 
 impl<'c> Sensor<'c> {
     fn new(view: &View, faces: &[Face], canvas: &'c Canvas, faults: KinectFaults, seed: u64) -> Self {
@@ -167,20 +160,20 @@ impl<'c> Sensor<'c> {
             Response { plane: face.normal.dot(&(face.corners[0] - view.eye)).abs() as f32, darkness }
         };
         let responses = std::iter::once(Response::default()).chain(faces.iter().map(response)).collect();
-        let (gaussians, level) = (Gaussians::shared(), faults.noise as f32);
+        let (line, level) = (Line::new(view), faults.noise as f32);
         Self {
             canvas,
             faults,
             responses,
             depth_of_steps: depth_of_steps(faults.range),
-            noise: gaussians.tabled(|deviate| DISPARITY_NOISE * level * deviate),
-            aside: Aside::new(gaussians, level),
+            noise: Gaussians::shared().tabled(|deviate| DISPARITY_NOISE * level * deviate),
+            lateral: (level > 0.0).then(|| Lateral::new(LATERAL_NOISE * level, line.bits.len())),
             scatter: Scatter::new(seed),
             patches: Scatter::new(seed ^ 0x5EED),
             lost: vec![0; canvas.width.div_ceil(PATCH)],
             middle_row: view.centre().1 as f32,
             focal: view.camera.focal as f32,
-            line: Line::new(view),
+            line,
         }
     }
 
@@ -189,13 +182,10 @@ impl<'c> Sensor<'c> {
         if row.is_multiple_of(PATCH) {
             self.patches.fill(&mut self.lost);
         }
-        let (width, blocked) = (self.canvas.width, &mut self.line.blocked);
+        let (width, line) = (self.canvas.width, &mut self.line);
+        let blocked = &mut line.blocked[..width];
         if self.faults.shadow {
-            let rays = &mut self.line.rays[..width];
-            for (column, (ray, inverse)) in rays.iter_mut().zip(&self.canvas.inverse[row * width..]).enumerate() {
-                *ray = column as i32 as f32 - FOCAL_BASELINE * inverse;
-            }
-            cast_shadow(rays, &mut blocked[..width]);
+            cast_shadow(&self.canvas.inverse[row * width..], FOCAL_BASELINE, &mut line.rays[..width], blocked);
         } else {
             blocked.fill(false);
         }
@@ -209,10 +199,9 @@ impl<'c> Sensor<'c> {
     fn look(&mut self, row: usize) {
         let (canvas, line) = (self.canvas, &mut self.line);
         self.scatter.fill(&mut line.bits[..canvas.width]);
-        if self.faults.noise > 0.0 {
-            aim(line, &self.aside, row, canvas);
-        } else {
-            line.places.iter_mut().zip(row * canvas.width..).for_each(|(place, at)| *place = at as u32);
+        match &mut self.lateral {
+            Some(lateral) => lateral.aim(&mut line.places, &line.bits, row, canvas),
+            None => line.places.iter_mut().zip(row * canvas.width..).for_each(|(place, at)| *place = at as u32),
         }
         let (inverse, face, responses) = (&canvas.inverse[..], &canvas.face[..], &self.responses[..]);
         for ((place, seen), response) in line.places.iter().zip(&mut line.inverse).zip(&mut line.responses) {
@@ -249,75 +238,6 @@ impl<'c> Sensor<'c> {
         }
         &self.line.depth[..self.canvas.width]
     }
-}
-
-/// Lateral noise as a function of twelve random bits: whole pixels, counted from [`AIM`] less.
-struct Aside {
-    least: u16,
-    /// The bits from which on it is one more, and one more again.
-    steps: Vec<u16>,
-}
-
-impl Aside {
-    fn new(gaussians: &Gaussians, level: f32) -> Self {
-        let table = gaussians.tabled(|deviate| (LATERAL_NOISE * level * deviate + AIM as f32 + 0.5) as u16).values;
-        let (least, most) = (table[0], table[table.len() - 1]);
-        let steps = (least + 1..=most).map(|aside| table.partition_point(|other| *other < aside) as u16);
-        Self { least, steps: steps.collect() }
-    }
-}
-
-/// Where the pixels of a row truly look: lateral noise mixes up neighbours.
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2", "x86_64+sse4.1"))]
-fn aim(line: &mut Line, aside: &Aside, row: usize, canvas: &Canvas) {
-    let [across, down] = &mut line.random;
-    for ((across, down), bits) in across.iter_mut().zip(down).zip(&line.bits) {
-        *across = (bits.wrapping_mul(0x9E37_79B1) >> 20) as u16;
-        *down = (bits.wrapping_mul(0x85EB_CA77) >> 20) as u16;
-    }
-    for (aimed, random) in line.aside.iter_mut().zip(&line.random) {
-        aimed.fill(aside.least);
-        for step in &aside.steps {
-            aimed.iter_mut().zip(random).for_each(|(aside, random)| *aside += u16::from(random >= step));
-        }
-    }
-    let [across, down] = &line.aside;
-    let aimed = |here: usize, aside: u16, size: usize| (here as i32 + i32::from(aside) - AIM as i32).clamp(0, size as i32 - 1);
-    for (column, (place, (across, down))) in line.places.iter_mut().zip(across.iter().zip(down)).enumerate() {
-        *place = (aimed(row, *down, canvas.height) * canvas.width as i32 + aimed(column, *across, canvas.width)) as u32;
-    }
-}
-
-/// Marks the pixels whose rays the projector, a baseline to the right, sends behind something nearer.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2", "x86_64+sse4.1"))]
-fn cast_shadow(rays: &[f32], shadowed: &mut [bool]) {
-    let mut edge = f32::INFINITY;
-    let ((rest, groups), (rest_shadowed, groups_shadowed)) =
-        (rays.as_rchunks::<LANES>(), shadowed.as_rchunks_mut::<LANES>());
-    for (rays, shadowed) in groups.iter().zip(groups_shadowed).rev() {
-        // Mostly the rays of a group lie in order, and none is hidden.
-        let mut ordered = rays[LANES - 1] <= edge;
-        for lane in 1..LANES {
-            ordered &= rays[lane - 1] <= rays[lane];
-        }
-        if ordered {
-            *shadowed = [false; LANES];
-            edge = rays[0];
-        } else {
-            edge = hide(rays, shadowed, edge);
-        }
-    }
-    hide(rest, rest_shadowed, edge);
-}
-
-/// Marks those of a run's rays that lie beyond any to their right, of which `edge` is the least so far.
-#[inline(always)]
-fn hide(rays: &[f32], shadowed: &mut [bool], mut edge: f32) -> f32 {
-    for (&ray, shadowed) in rays.iter().zip(shadowed).rev() {
-        *shadowed = ray > edge;
-        edge = if ray < edge { ray } else { edge };
-    }
-    edge
 }
 
 /// Reckons the disparities of a row, `down` being the square of its part of the rays' lengths.

@@ -74,4 +74,10 @@ mod tests {
         let variance = table.iter().map(|v| v * v).sum::<f32>() / COUNT as f32;
         assert!(mean.abs() < 1e-3 && (variance - 1.0).abs() < 5e-3, "{mean} {variance}");
     }
+    #[test]
+    fn whole_numbers_are_cut_off_as_by_a_cast() {
+        for number in [0.0, 0.49, 0.5, 0.999_999_9, 1.0, 63.7, 254.999, 255.0, 3479.5, 8_388_607.0_f32] {
+            assert_eq!(whole(number), number as u32, "{number}");
+        }
+    }
 }
