@@ -1,12 +1,18 @@
 //! The colour picture: finish, light and pattern of the face each pixel shows.
+//!
+//! Of each row, the runs of one face lay out finish, pattern and noise in lists;
+//! one pass over the lists makes the pixels. Runs go from left to right and
+//! write whole groups of pixels: the next run overwrites what was too much.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use multiversion::multiversion;
 
 use super::faces::{Face, Point, Texture};
-use super::noise::{Gaussians, Scatter, Table};
-use super::raster::{Canvas, View};
+use super::noise::{Gaussians, Table, whole};
+use super::raster::{Canvas, LANES, View};
+use super::scatter::Scatter;
 
 /// Light of a room.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +46,8 @@ struct Paint {
     /// Pattern coordinates: at the eye, and per metre of depth as coefficients of column, row and one.
     eye: [f32; 2],
     over: [Point; 2],
-    pattern: &'static [f32; SIDE * SIDE],
+    /// None of one tone.
+    pattern: Option<&'static [f32; SIDE * SIDE]>,
 }
 
 impl Paint {
@@ -55,7 +62,7 @@ impl Paint {
         let (u, v) = (u * across, v * along);
         let over = [&u, &v].map(|axis| view.over_pixels(&view.turned(axis)));
         let eye = [view.eye.dot(&u) as f32, view.eye.dot(&v) as f32];
-        Self { color, eye, over, pattern: &patterns()[face.finish.texture as usize] }
+        Self { color, eye, over, pattern: pattern_of(face.finish.texture) }
     }
 }
 
@@ -82,19 +89,25 @@ fn scale(texture: Texture) -> (f64, f64) {
     }
 }
 
-/// Brightness patterns, [`SIDE`] × [`SIDE`] each, in the order of [`Texture`].
-fn patterns() -> &'static [[f32; SIDE * SIDE]; 5] {
-    static PATTERNS: OnceLock<Box<[[f32; SIDE * SIDE]; 5]>> = OnceLock::new();
-    PATTERNS.get_or_init(|| {
+/// Brightness pattern of a texture, [`SIDE`] × [`SIDE`].
+fn pattern_of(texture: Texture) -> Option<&'static [f32; SIDE * SIDE]> {
+    static PATTERNS: OnceLock<Box<[[f32; SIDE * SIDE]; 4]>> = OnceLock::new();
+    let patterns = PATTERNS.get_or_init(|| {
         let grid = |value: fn(usize, usize) -> f32| std::array::from_fn(|i| value(i % SIDE, i / SIDE));
         Box::new([
-            grid(|_, _| 1.0),
             grid(|u, v| 0.93 + 0.14 * hash(u, v)),
             grid(|u, v| 0.86 + 0.2 * hash(u, 7) + 0.08 * hash(u, v)),
             grid(|u, v| if u % 8 == 0 { 0.8 } else { 0.92 + 0.12 * hash(u / 8, 3) + 0.05 * hash(u, v) }),
             grid(|u, v| if u % 32 == 0 || v % 32 == 0 { 0.78 } else { 0.95 + 0.08 * hash(u / 32, v / 32) }),
         ])
-    })
+    });
+    match texture {
+        Texture::Plain => None,
+        Texture::Cloth => Some(&patterns[0]),
+        Texture::Wood => Some(&patterns[1]),
+        Texture::Boards => Some(&patterns[2]),
+        Texture::Tiles => Some(&patterns[3]),
+    }
 }
 
 /// A fixed scattering of 0 to 1.
@@ -109,61 +122,171 @@ fn hash(u: usize, v: usize) -> f32 {
 pub(super) fn paint(view: &View, faces: &[Face], canvas: &Canvas, light: &Light, seed: u64) -> Vec<[u8; 3]> {
     let mut paints: Vec<Option<Paint>> = Vec::new();
     paints.resize_with(faces.len(), || None);
-    let mut picture = vec![BACKDROP; canvas.face.len()];
-    let mut brush = Brush { noise: Gaussians::shared().tabled(|deviate| NOISE * deviate), scatter: Scatter::new(seed) };
-    let mut spots = vec![0_u16; canvas.width];
+    let mut brush = Brush::new(canvas.width, seed);
+    let mut picture = Vec::with_capacity(canvas.pixels());
     for row in 0..canvas.height {
-        let mut from = row * canvas.width;
-        let end = from + canvas.width;
-        while from < end {
-            let number = canvas.face[from];
-            let run = canvas.face[from..end].iter().take_while(|&&face| face == number).count();
-            if number > 0 {
-                let face = number as usize - 1;
-                let paint = paints[face].get_or_insert_with(|| Paint::new(view, &faces[face], light));
-                let spots = &mut spots[..run];
-                paint.spots(spots, &canvas.inverse[from..from + run], from % canvas.width, row);
-                brush.stroke(paint, spots, &mut picture[from..from + run]);
+        brush.dip(canvas, row);
+        for (run, number) in canvas.runs(row) {
+            if number == 0 {
+                brush.leave(run);
+                continue;
             }
-            from += run;
+            let face = number as usize - 1;
+            let paint = paints[face].get_or_insert_with(|| Paint::new(view, &faces[face], light));
+            brush.stroke(paint, &canvas.inverse[row * canvas.width..], run, row);
         }
+        mix(&mut brush);
+        picture.extend_from_slice(&brush.pixels[..canvas.width]);
     }
     picture
 }
 
-impl Paint {
-    /// Where in the pattern each pixel of a run on one row lies.
-    fn spots(&self, spots: &mut [u16], inverse: &[f32], column: usize, row: usize) {
-        let start = |axis: &Point| (axis.x * column as f64 + axis.y * row as f64 + axis.z) as f32;
-        let step = |axis: &Point| axis.x as f32;
-        let [u, v] = &self.over;
-        spread(spots, inverse, self.eye, [start(u), start(v)], [step(u), step(v)]);
-    }
-}
-
-#[multiversion(targets("x86_64+avx2", "x86_64+sse4.1"))]
-fn spread(spots: &mut [u16], inverse: &[f32], eye: [f32; 2], start: [f32; 2], step: [f32; 2]) {
-    for (i, (spot, inverse)) in spots.iter_mut().zip(inverse).enumerate() {
-        let depth = 1.0 / inverse;
-        let u = (eye[0] + (start[0] + i as f32 * step[0]) * depth) as i32 & (SIDE as i32 - 1);
-        let v = (eye[1] + (start[1] + i as f32 * step[1]) * depth) as i32 & (SIDE as i32 - 1);
-        *spot = (v * SIDE as i32 + u) as u16;
-    }
-}
-
-/// Puts colour with the camera's noise into the picture.
+/// Lays out the colours of a row; each list is [`LANES`] longer than it.
 struct Brush {
-    noise: Table<f32>,
+    table: Table<f32>,
     scatter: Scatter,
+    bits: Vec<u32>,
+    noise: Vec<f32>,
+    /// Brightness of the pattern.
+    tone: Vec<f32>,
+    /// Red, green, blue in the light.
+    color: [Vec<f32>; 3],
+    pixels: Vec<[u8; 3]>,
 }
 
 impl Brush {
-    fn stroke(&mut self, paint: &Paint, spots: &[u16], pixels: &mut [[u8; 3]]) {
-        let [red, green, blue] = paint.color;
-        for (pixel, spot) in pixels.iter_mut().zip(spots) {
-            let noise = self.noise.pick(self.scatter.bits());
-            let tone = paint.pattern[usize::from(*spot) % (SIDE * SIDE)];
-            *pixel = [(red * tone + noise) as u8, (green * tone + noise) as u8, (blue * tone + noise) as u8];
+    fn new(width: usize, seed: u64) -> Self {
+        let length = width + LANES;
+        Self {
+            table: Gaussians::shared().tabled(|deviate| NOISE * deviate),
+            scatter: Scatter::new(seed),
+            bits: vec![0; length],
+            noise: vec![0.0; length],
+            tone: vec![0.0; length],
+            color: [0, 1, 2].map(|_| vec![0.0; length]),
+            pixels: vec![[0; 3]; length],
+        }
+    }
+
+    /// Draws the row's noise: only pixels that show something use up random numbers.
+    fn dip(&mut self, canvas: &Canvas, row: usize) {
+        let line = &canvas.face[row * canvas.width..(row + 1) * canvas.width];
+        if line.iter().fold(true, |all, &face| all & (face > 0)) {
+            self.scatter.fill(&mut self.bits[..line.len()]);
+        } else {
+            let shown = canvas.runs(row).filter(|(_, number)| *number > 0);
+            shown.for_each(|(run, _)| self.scatter.fill(&mut self.bits[run]));
+        }
+        for (noise, bits) in self.noise.iter_mut().zip(&self.bits) {
+            *noise = self.table.pick(*bits);
+        }
+    }
+
+    /// Leaves a run to the backdrop.
+    fn leave(&mut self, run: Range<usize>) {
+        for (list, value) in self.color.iter_mut().zip(BACKDROP) {
+            list[run.clone()].fill(f32::from(value));
+        }
+        self.tone[run.clone()].fill(1.0);
+        self.noise[run].fill(0.0);
+    }
+
+    /// Lays out a run of a row that shows one face.
+    fn stroke(&mut self, paint: &Paint, inverse: &[f32], run: Range<usize>, row: usize) {
+        let filled = run.start..run.start + run.len().next_multiple_of(LANES);
+        for (list, value) in self.color.iter_mut().zip(paint.color) {
+            fill(&mut list[filled.clone()], value);
+        }
+        let tone = &mut self.tone[filled.clone()];
+        match paint.pattern {
+            None => fill(tone, 1.0),
+            Some(pattern) => {
+                let start = |axis: &Point| (axis.x * run.start as f64 + axis.y * row as f64 + axis.z) as f32;
+                let [u, v] = &paint.over;
+                let line = Line { eye: paint.eye, start: [start(u), start(v)], step: [u.x as f32, v.x as f32] };
+                tones(&line, tone, &inverse[filled], pattern);
+            }
+        }
+    }
+}
+
+/// Fills a list whose length is a multiple of [`LANES`].
+fn fill(list: &mut [f32], value: f32) {
+    list.as_chunks_mut::<LANES>().0.iter_mut().for_each(|group| *group = [value; LANES]);
+}
+
+/// Pattern coordinates along a run: at the eye, and per metre of depth at its start and by pixel.
+struct Line {
+    eye: [f32; 2],
+    start: [f32; 2],
+    step: [f32; 2],
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2", "x86_64+sse4.1"))]
+fn tones(line: &Line, tone: &mut [f32], inverse: &[f32], pattern: &[f32; SIDE * SIDE]) {
+    let groups = tone.as_chunks_mut::<LANES>().0.iter_mut().zip(inverse.as_chunks::<LANES>().0);
+    for (group, (tone, inverse)) in groups.enumerate() {
+        let spots = line.spots(group * LANES, inverse);
+        for (tone, spot) in tone.iter_mut().zip(spots) {
+            *tone = pattern[spot as usize % (SIDE * SIDE)];
+        }
+    }
+}
+
+impl Line {
+    /// Where in the pattern each pixel of a group lies.
+    #[inline(always)]
+    fn spots(&self, first: usize, inverse: &[f32; LANES]) -> [u32; LANES] {
+        let mut spots = [0; LANES];
+        for lane in 0..LANES {
+            let depth = 1.0 / inverse[lane];
+            let i = (first + lane) as i32 as f32;
+            let u = wrapped(self.eye[0] + (self.start[0] + i * self.step[0]) * depth);
+            let v = wrapped(self.eye[1] + (self.start[1] + i * self.step[1]) * depth);
+            spots[lane] = v * SIDE as u32 + u;
+        }
+        spots
+    }
+}
+
+/// A coordinate cut off to an integer, modulo [`SIDE`].
+#[inline(always)]
+fn wrapped(coordinate: f32) -> u32 {
+    let cut = coordinate.trunc();
+    whole(cut - (cut / SIDE as f32).floor() * SIDE as f32)
+}
+
+/// Makes the pixels of the row that is laid out.
+fn mix(brush: &mut Brush) {
+    let [red, green, blue] = &brush.color;
+    mix_lists(&mut brush.pixels, [red, green, blue], &brush.tone, &brush.noise);
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2", "x86_64+sse4.1"))]
+fn mix_lists(pixels: &mut [[u8; 3]], color: [&[f32]; 3], tone: &[f32], noise: &[f32]) {
+    let [red, green, blue] = color.map(|list| list.as_chunks::<LANES>().0);
+    let groups = red.iter().zip(green).zip(blue);
+    let shade = tone.as_chunks::<LANES>().0.iter().zip(noise.as_chunks::<LANES>().0);
+    for ((pixels, ((red, green), blue)), (tone, noise)) in
+        pixels.as_chunks_mut::<LANES>().0.iter_mut().zip(groups).zip(shade)
+    {
+        for lane in 0..LANES {
+            let level = |color: f32| whole((color * tone[lane] + noise[lane]).clamp(0.0, 255.0)) as u8;
+            pixels[lane] = [level(red[lane]), level(green[lane]), level(blue[lane])];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coordinates_wrap_as_integers_do() {
+        for i in -3000..3000 {
+            for coordinate in [i as f32 * 0.37, i as f32 * 64.0, i as f32 * 12_345.6] {
+                assert_eq!(wrapped(coordinate), (coordinate as i32 & (SIDE as i32 - 1)) as u32, "{coordinate}");
+            }
         }
     }
 }

@@ -5,7 +5,7 @@ use rand_chacha::rand_core::Rng;
 
 use super::colors::{Light, paint};
 use super::depths::{KinectFaults, measure};
-use super::faces::Faces;
+use super::faces::{Face, Faces};
 use super::raster::{Canvas, View};
 use super::{Camera, SolidScene};
 use crate::frame::{Intrinsics, RgbdFrame};
@@ -39,14 +39,14 @@ impl Kinect {
     /// The same of bare faces, numbered by their own ids.
     pub fn capture_faces(&self, scene: &Faces, pose: Pose, rng: &mut ChaCha8Rng) -> (RgbdFrame, Vec<u16>) {
         let view = View::new(self.camera, pose);
-        let mut canvas = Canvas::new(&self.camera);
-        for (number, face) in (1..).zip(&scene.faces) {
-            canvas.draw(&view, number, face);
-        }
-        let color = paint(&view, &scene.faces, &canvas, &self.light, rng.next_u64());
-        let depth = measure(&view, &scene.faces, &canvas, &self.faults, rng.next_u64());
-        let id_of: Vec<u16> = std::iter::once(0).chain(scene.faces.iter().map(|face| face.id)).collect();
-        let ids = canvas.face.iter().map(|&face| id_of[face as usize]).collect();
+        let (color, depth, ids) = Canvas::lend(&self.camera, |canvas| {
+            for (number, face) in (1..).zip(&scene.faces) {
+                canvas.draw(&view, number, face);
+            }
+            let color = paint(&view, &scene.faces, canvas, &self.light, rng.next_u64());
+            let depth = measure(&view, &scene.faces, canvas, &self.faults, rng.next_u64());
+            (color, depth, mask(&scene.faces, canvas))
+        });
         let (cx, cy) = view.centre();
         let frame = RgbdFrame {
             width: self.camera.width,
@@ -63,12 +63,23 @@ impl Kinect {
     /// Pixels of the item of an id (from 1) if nothing stood before it.
     pub fn pixels_alone(&self, scene: &Faces, id: u16, pose: Pose) -> usize {
         let view = View::new(self.camera, pose);
-        let mut canvas = Canvas::new(&self.camera);
-        for (number, face) in (1..).zip(scene.faces.iter().filter(|face| face.id == id)) {
-            canvas.draw(&view, number, face);
-        }
-        canvas.face.iter().filter(|&&face| face > 0).count()
+        Canvas::lend(&self.camera, |canvas| {
+            for (number, face) in (1..).zip(scene.faces.iter().filter(|face| face.id == id)) {
+                canvas.draw(&view, number, face);
+            }
+            canvas.face.iter().filter(|&&face| face > 0).count()
+        })
     }
+}
+
+/// The id of the face that each pixel shows.
+fn mask(faces: &[Face], canvas: &Canvas) -> Vec<u16> {
+    let mut ids = Vec::with_capacity(canvas.pixels());
+    for (run, number) in (0..canvas.height).flat_map(|row| canvas.runs(row)) {
+        let id = if number > 0 { faces[number as usize - 1].id } else { 0 };
+        ids.resize(ids.len() + run.len(), id);
+    }
+    ids
 }
 
 #[cfg(test)]

@@ -20,8 +20,11 @@ mod colors;
 mod depths;
 mod faces;
 mod kinect;
+mod lateral;
 mod noise;
 mod raster;
+mod scatter;
+mod shadow;
 mod solids;
 mod visibility;
 

@@ -1,4 +1,4 @@
-//! Random numbers by the hundred thousand a frame: a table of normal deviates, read at random places.
+//! Noise by the hundred thousand a frame: a table of normal deviates, read at random places.
 
 use std::sync::OnceLock;
 
@@ -25,7 +25,7 @@ impl Gaussians {
 
 /// Something of normal deviates, made once for many pixels.
 pub(super) struct Table<T> {
-    values: Vec<T>,
+    pub values: Vec<T>,
 }
 
 impl<T: Copy> Table<T> {
@@ -55,24 +55,12 @@ fn normal_cdf(x: f64) -> f64 {
     if x >= 0.0 { 1.0 - tail } else { tail }
 }
 
-/// A fast stream of bits (xorshift64*, Vigna 2016), seeded from the trial's own stream.
-pub(super) struct Scatter {
-    state: u64,
-}
-
-impl Scatter {
-    pub fn new(seed: u64) -> Self {
-        Self { state: seed | 1 }
-    }
-
-    /// The next 32 bits.
-    #[inline(always)]
-    pub fn bits(&mut self) -> u32 {
-        self.state ^= self.state >> 12;
-        self.state ^= self.state << 25;
-        self.state ^= self.state >> 27;
-        (self.state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 32) as u32
-    }
+/// A number from 0 up to 2²³ cut off to an integer, in a form that is done for many at once.
+#[inline(always)]
+pub(super) fn whole(number: f32) -> u32 {
+    // From here on up, floats lie one apart.
+    const ONES: f32 = 8_388_608.0;
+    (number.trunc() + ONES).to_bits().wrapping_sub(ONES.to_bits())
 }
 
 #[cfg(test)]
@@ -85,5 +73,11 @@ mod tests {
         let mean = table.iter().sum::<f32>() / COUNT as f32;
         let variance = table.iter().map(|v| v * v).sum::<f32>() / COUNT as f32;
         assert!(mean.abs() < 1e-3 && (variance - 1.0).abs() < 5e-3, "{mean} {variance}");
+    }
+    #[test]
+    fn whole_numbers_are_cut_off_as_by_a_cast() {
+        for number in [0.0, 0.49, 0.5, 0.999_999_9, 1.0, 63.7, 254.999, 255.0, 3479.5, 8_388_607.0_f32] {
+            assert_eq!(whole(number), number as u32, "{number}");
+        }
     }
 }

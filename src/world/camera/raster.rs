@@ -1,7 +1,13 @@
 //! Which face each pixel shows, and at what depth: a scan-line rasteriser of convex faces.
 //!
 //! One over depth is linear in the picture, so a row of a face costs one
-//! addition and one comparison a pixel.
+//! addition and one comparison a pixel. Rows are worked on in groups of
+//! [`LANES`] pixels, a whole one also at a run's end: most runs are short, and
+//! a loop over what is left would take most of the time. So the canvas is a
+//! group longer than the picture.
+
+use std::cell::RefCell;
+use std::ops::Range;
 
 use multiversion::multiversion;
 
@@ -51,7 +57,11 @@ impl View {
     }
 }
 
-/// Face and inverse depth of every pixel.
+/// Pixels worked on together.
+pub(super) const LANES: usize = 16;
+
+/// Face and inverse depth of every pixel, and of [`LANES`] more that are not in the picture.
+#[derive(Default)]
 pub(super) struct Canvas {
     pub width: usize,
     pub height: usize,
@@ -62,9 +72,38 @@ pub(super) struct Canvas {
 }
 
 impl Canvas {
-    pub fn new(camera: &Camera) -> Self {
-        let pixels = camera.width * camera.height;
-        Self { width: camera.width, height: camera.height, inverse: vec![0.0; pixels], face: vec![0; pixels] }
+    /// Lends an empty canvas: the thread's own, since new memory for each frame takes longer than drawing on it.
+    pub fn lend<T>(camera: &Camera, work: impl FnOnce(&mut Self) -> T) -> T {
+        thread_local!(static CANVAS: RefCell<Canvas> = RefCell::default());
+        CANVAS.with_borrow_mut(|canvas| {
+            canvas.clear(camera);
+            work(canvas)
+        })
+    }
+
+    fn clear(&mut self, camera: &Camera) {
+        (self.width, self.height) = (camera.width, camera.height);
+        let pixels = self.pixels() + LANES;
+        self.inverse.clear();
+        self.inverse.resize(pixels, 0.0);
+        self.face.clear();
+        self.face.resize(pixels, 0);
+    }
+
+    pub fn pixels(&self) -> usize {
+        self.width * self.height
+    }
+
+    /// The runs of a row that show one face each, from the left: columns, and the face's number + 1 or 0.
+    pub fn runs(&self, row: usize) -> impl Iterator<Item = (Range<usize>, u32)> {
+        let line = &self.face[row * self.width..(row + 1) * self.width];
+        let mut from = 0;
+        std::iter::from_fn(move || {
+            let &number = line.get(from)?;
+            let run = from..from + leading(&line[from..], number);
+            from = run.end;
+            Some((run, number))
+        })
     }
 
     /// Draws a face where nothing nearer was drawn.
@@ -80,9 +119,9 @@ impl Canvas {
         for row in low..high {
             let Some((from, to)) = self.columns_of(&outline, row as f64) else { continue };
             let start = inverse.x * from as f64 + inverse.y * row as f64 + inverse.z;
-            let range = row * self.width + from..row * self.width + to;
-            let (depths, faces) = (&mut self.inverse[range.clone()], &mut self.face[range]);
-            draw_span(depths, faces, start as f32, inverse.x as f32, number);
+            let first = row * self.width + from;
+            let (depths, faces) = (&mut self.inverse[first..], &mut self.face[first..]);
+            draw_span(depths, faces, to - from, start as f32, inverse.x as f32, number);
         }
     }
 
@@ -138,12 +177,25 @@ fn clipped(view: &View, face: &Face) -> Vec<(f64, f64)> {
     outline
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+sse4.1"))]
-fn draw_span(depths: &mut [f32], faces: &mut [u32], start: f32, step: f32, number: u32) {
-    for (i, (depth, face)) in depths.iter_mut().zip(faces).enumerate() {
-        let inverse = start + i as f32 * step;
-        let nearer = inverse > *depth;
-        *depth = if nearer { inverse } else { *depth };
-        *face = if nearer { number } else { *face };
+/// How many values at a list's beginning are the given one.
+fn leading(values: &[u32], value: u32) -> usize {
+    let alike = |group: &&[u32; LANES]| group.iter().fold(true, |alike, &other| alike & (other == value));
+    let start = LANES * values.as_chunks().0.iter().take_while(alike).count();
+    start + values[start..].iter().take_while(|&&other| other == value).count()
+}
+
+/// Draws the first `count` pixels of what is left of the canvas.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2", "x86_64+sse4.1"))]
+fn draw_span(depths: &mut [f32], faces: &mut [u32], count: usize, start: f32, step: f32, number: u32) {
+    let groups = count.div_ceil(LANES);
+    let (depths, faces) = (depths.as_chunks_mut::<LANES>().0, faces.as_chunks_mut::<LANES>().0);
+    for (group, (depths, faces)) in depths.iter_mut().zip(faces).take(groups).enumerate() {
+        for lane in 0..LANES {
+            let i = (group * LANES + lane) as i32;
+            let inverse = start + i as f32 * step;
+            let nearer = inverse > depths[lane] && i < count as i32;
+            depths[lane] = if nearer { inverse } else { depths[lane] };
+            faces[lane] = if nearer { number } else { faces[lane] };
+        }
     }
 }
