@@ -96,17 +96,35 @@ impl Beliefs {
         }
         let centre = vec2(detection.x, detection.y);
         // Associated by place, never by category: a label that flickers must not make a second item.
-        let distance = |known: &Furniture| (known.centre() - centre).norm();
-        let near = self.furniture.iter_mut().filter(|known| known.is_at(centre, &footprint));
-        if let Some(known) = near.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
-            return known.look_again(detection, footprint);
+        let distance = |&i: &usize| (self.furniture[i].centre() - centre).norm();
+        let near = (0..self.furniture.len()).filter(|&i| self.furniture[i].is_at(centre, &footprint));
+        if let Some(index) = near.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
+            return self.look_again(index, detection, footprint);
         }
         if furniture_chance(detection) < LEAST_FURNITURE {
             return false;
         }
-        let number = 1 + self.furniture.iter().filter(|f| f.detection.category == detection.category).count();
+        let number = self.unused_number(&detection.category, None);
         self.furniture.push(Furniture::new(number, detection, footprint));
         true
+    }
+
+    /// Takes in another look at a piece; it gets another number when it is now called something else.
+    fn look_again(&mut self, index: usize, detection: &Detection, footprint: Polygon) -> bool {
+        let category = self.furniture[index].detection.category.clone();
+        let moved = self.furniture[index].look_again(detection, footprint);
+        if self.furniture[index].detection.category != category {
+            self.furniture[index].number = self.unused_number(&self.furniture[index].detection.category, Some(index));
+        }
+        moved
+    }
+
+    /// The first number from 1 that no piece of a category has, but for one.
+    fn unused_number(&self, category: &str, but: Option<usize>) -> usize {
+        let others =
+            self.furniture.iter().enumerate().filter(|(i, f)| f.detection.category == category && Some(*i) != but);
+        let used: Vec<usize> = others.map(|(_, furniture)| furniture.number).collect();
+        (1..).find(|number| !used.contains(number)).unwrap_or_default()
     }
 
     /// Where an object of that name was last recognised; any object when none is named. What was more often taken for
@@ -181,6 +199,18 @@ mod tests {
         assert_eq!(piece.detection.category, "table");
         assert!(piece.belief(|category| category == "table") > piece.belief(|category| category == "chair"));
         assert!(piece.belief(|category| category == "chair") > 0.2);
+    }
+
+    #[test]
+    fn no_two_pieces_have_the_same_label_though_one_was_called_something_else_before() {
+        let mut beliefs = Beliefs::default();
+        let looks = [("table", 1.0, 0.6), ("chair", 3.0, 0.6), ("table", 3.0, 0.9), ("chair", 5.0, 0.9)];
+        for (category, x, confidence) in looks {
+            let furniture = vec![detection(category, x, confidence)];
+            beliefs.take_in(&View { furniture, objects: Vec::new() }, FAR_OFF);
+        }
+        let labels: Vec<String> = beliefs.furniture.iter().map(Furniture::label).collect();
+        assert_eq!(labels, ["table 1", "table 2", "chair 1"]);
     }
 
     #[test]

@@ -23,7 +23,7 @@ const LOOKS_TO_REFUTE: f64 = 3.0;
 /// A piece of furniture the robot has seen.
 #[derive(Clone, Debug)]
 pub struct Furniture {
-    /// Counted in the order first seen.
+    /// Tells it from others of its category.
     pub number: usize,
     /// The best look at it, under the category that most looks speak for.
     pub detection: Detection,
