@@ -6,7 +6,7 @@
 //! the picture: where the depth goes past it at every height, nothing stands.
 //! That the floor shows would not do, it shows below a table, too.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::frame::RgbdFrame;
 use crate::geometry::{ClearanceGrid, Polygon, Vec2, vec2};
@@ -70,12 +70,19 @@ impl FreeSpace {
 
     /// Adds a piece to a grid, as far as its space is not known to be empty.
     pub fn add_to(&self, grid: &mut ClearanceGrid, outline: &Polygon, margin: f64) {
-        let (empty, filled): (Vec<Cell>, Vec<Cell>) =
-            cells_of(outline, margin).into_iter().partition(|cell| self.is_empty(*cell));
-        if empty.is_empty() {
+        let cells = cells_of(outline, margin);
+        let filled: BTreeSet<Cell> = cells.iter().copied().filter(|cell| !self.is_empty(*cell)).collect();
+        if filled.len() == cells.len() {
             grid.add_about(outline, margin);
-        } else {
-            grid.add_squares(filled.into_iter().map(centre), CELL_M);
+            return;
+        }
+        for &(x, y) in &filled {
+            let around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
+            if around.iter().all(|cell| filled.contains(cell)) {
+                grid.add_inner_square(centre((x, y)), CELL_M);
+            } else {
+                grid.add_square(centre((x, y)), CELL_M);
+            }
         }
     }
 

@@ -54,12 +54,20 @@ impl ClearanceGrid {
         });
     }
 
-    /// Adds solid squares of side `side_m` about their middles.
-    pub fn add_squares(&mut self, middles: impl Iterator<Item = Vec2>, side_m: f64) {
+    /// Adds a solid square of side `side_m` about its middle.
+    pub fn add_square(&mut self, middle: Vec2, side_m: f64) {
         let half = Vec2::repeat(side_m / 2.0);
-        for middle in middles {
-            let (low, high) = (middle - half, middle + half);
-            self.lower(low, high, |point, _| (low - point).sup(&(point - high)).sup(&Vec2::zeros()).norm());
+        let (low, high) = (middle - half, middle + half);
+        self.lower(low, high, |point, _| (low - point).sup(&(point - high)).sup(&Vec2::zeros()).norm());
+    }
+
+    /// Adds a solid square that others surround: it is nearest to none but a cell whose middle it covers.
+    pub fn add_inner_square(&mut self, middle: Vec2, side_m: f64) {
+        let cell = self.cell(middle);
+        if (self.centre(cell) - middle).amax() <= side_m / 2.0
+            && let Some(index) = self.index(cell)
+        {
+            self.clearance[index] = 0.0;
         }
     }
 
@@ -94,8 +102,13 @@ impl ClearanceGrid {
 
     /// Metres from the cell's middle to the nearest obstacle; zero outside the grid.
     pub fn clearance(&self, cell: Cell) -> f64 {
-        let inside = cell.0 >= 0 && cell.1 >= 0 && (cell.0 as usize) < self.width && (cell.1 as usize) < self.height;
-        if inside { f64::from(self.clearance[cell.1 as usize * self.width + cell.0 as usize]) } else { 0.0 }
+        self.index(cell).map_or(0.0, |index| f64::from(self.clearance[index]))
+    }
+
+    /// Where a cell is kept; nothing outside the grid.
+    fn index(&self, (x, y): Cell) -> Option<usize> {
+        let inside = x >= 0 && y >= 0 && (x as usize) < self.width && (y as usize) < self.height;
+        inside.then(|| y as usize * self.width + x as usize)
     }
 
     /// The least clearance along the straight line between two points.
@@ -135,10 +148,14 @@ mod tests {
     fn squares_side_by_side_are_one_obstacle() {
         let mut grid = ClearanceGrid::new(vec2(0.0, 0.0), vec2(4.0, 4.0), 0.1, 1.0);
         let mut alike = grid.clone();
-        grid.add_squares(
-            (0..20).flat_map(|x| (0..10).map(move |y| vec2(1.525 + 0.05 * f64::from(x), 1.025 + 0.05 * f64::from(y)))),
-            0.05,
-        );
+        for (x, y) in (0..20).flat_map(|x| (0..10).map(move |y| (x, y))) {
+            let middle = vec2(1.525 + 0.05 * f64::from(x), 1.025 + 0.05 * f64::from(y));
+            if (1..19).contains(&x) && (1..9).contains(&y) {
+                grid.add_inner_square(middle, 0.05);
+            } else {
+                grid.add_square(middle, 0.05);
+            }
+        }
         alike.add_polygon(&Polygon::rectangle(Pose::new(2.0, 1.25, 0.0), 1.0, 0.5));
         let cells = (0..40).flat_map(|x| (0..40).map(move |y| (x, y)));
         assert!(cells.into_iter().all(|cell| (grid.clearance(cell) - alike.clearance(cell)).abs() < 1e-6));
