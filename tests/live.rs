@@ -157,6 +157,18 @@ fn a_viewer_that_never_reads_holds_nothing_up() {
 }
 
 #[test]
+fn who_looks_on_sees_the_end_though_the_disk_is_full() {
+    let mut shown = Shown::start(&["--live-speed", "10000", "--record", "/dev/full"]);
+    let viewer = Viewer::connected_to(shown.port);
+    writeln!(shown.stdin, "{AHEAD}").expect("written");
+    wait_for("the record", || viewer.seen().topics.get("/fetch/drive").is_some_and(|said| !said.messages.is_empty()));
+    drop(shown.stdin);
+    let said: Vec<_> = shown.said.map_while(Result::ok).collect();
+    assert!(said.iter().any(|line| line.contains("/dev/full: the disk is full")), "{said:?}");
+    assert_eq!(shown.child.wait().expect("ends").code(), Some(1));
+}
+
+#[test]
 fn a_real_robot_is_shown_as_it_is_logged() {
     let served = Served::start(&[]);
     let path = served.path("trial.mcap");
