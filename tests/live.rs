@@ -8,7 +8,8 @@ mod served;
 mod viewer;
 
 use std::collections::BTreeSet;
-use std::io::{BufRead, BufReader, Lines, Write};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Lines, Read, Write};
 use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
 
 use common::{executable, pipe, run};
@@ -157,14 +158,19 @@ fn a_viewer_that_never_reads_holds_nothing_up() {
 }
 
 #[test]
-fn who_looks_on_sees_the_end_though_the_disk_is_full() {
-    let mut shown = Shown::start(&["--live-speed", "10000", "--record", "/dev/full"]);
+fn who_looks_on_sees_the_end_though_the_log_can_no_longer_be_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let pipe = folder.path().join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().expect("mkfifo").success());
+    let mut shown = Shown::start(&["--live-speed", "20", "--record", pipe.to_str().expect("UTF-8")]);
+    let reads_little = std::thread::spawn(move || File::open(pipe)?.read_exact(&mut [0; 1000]));
     let viewer = Viewer::connected_to(shown.port);
     writeln!(shown.stdin, "{AHEAD}").expect("written");
     wait_for("the record", || viewer.seen().topics.get("/fetch/drive").is_some_and(|said| !said.messages.is_empty()));
     drop(shown.stdin);
     let said: Vec<_> = shown.said.map_while(Result::ok).collect();
-    assert!(said.iter().any(|line| line.contains("/dev/full: the disk is full")), "{said:?}");
+    assert!(said.iter().any(|line| line.contains("pipe: Broken pipe")), "{said:?}");
+    reads_little.join().expect("no panic").expect("a thousand bytes");
     assert_eq!(shown.child.wait().expect("ends").code(), Some(1));
 }
 

@@ -31,13 +31,16 @@ const CLOCK_EVERY: Duration = Duration::from_millis(50);
 ///
 /// Each viewer has a queue of its own that loses its oldest messages when it is full: nobody holds the robot up.
 #[derive(Debug)]
-pub struct Live {
+pub struct Live(Arc<Server>);
+
+#[derive(Debug)]
+struct Server {
     context: Arc<Context>,
     /// Of the one thread on which all of the server runs.
     runtime: Handle,
     shown: Mutex<Shown>,
     /// Set as soon as it listens.
-    server: OnceLock<WebSocketServerHandle>,
+    listening: OnceLock<WebSocketServerHandle>,
 }
 
 /// The trial that is shown.
@@ -57,46 +60,49 @@ struct ShownTopic {
 
 impl Live {
     /// Listens at `host` (a name or number; IPv6 in brackets) and `port`; 0 takes any that is free.
-    pub fn serve(host: &str, port: u16) -> io::Result<Arc<Self>> {
+    pub fn serve(host: &str, port: u16) -> io::Result<Self> {
         let runtime = Builder::new_current_thread().enable_all().build()?;
         let (context, handle) = (Context::new(), runtime.handle().clone());
-        let live = Arc::new(Self { context, runtime: handle, shown: Mutex::default(), server: OnceLock::new() });
-        let server = WebSocketServer::new()
+        let server = Server { context, runtime: handle, shown: Mutex::default(), listening: OnceLock::new() };
+        let server = Arc::new(server);
+        let listening = WebSocketServer::new()
             .name("spatial-fetch drive")
             .bind(host, port)
-            .context(&live.context)
+            .context(&server.context)
             .capabilities([Capability::Time])
-            .listener(Arc::new(Latecomers(Arc::downgrade(&live))))
+            .listener(Arc::new(Latecomers(Arc::downgrade(&server))))
             .start();
-        let server = runtime.block_on(server).map_err(|error| match error {
+        let listening = runtime.block_on(listening).map_err(|error| match error {
             FoxgloveError::Bind(error) => error,
             error => io::Error::other(error),
         })?;
         // Set once, here.
-        let _ = live.server.set(server);
+        let _ = server.listening.set(listening);
         // It ends with the program.
         std::thread::Builder::new().name("live".to_string()).spawn(move || runtime.block_on(pending::<()>()))?;
-        Ok(live)
+        Ok(Self(server))
     }
 
     /// Where it listens.
     pub fn port(&self) -> u16 {
-        self.server.get().map_or(0, WebSocketServerHandle::port)
+        self.0.listening.get().map_or(0, WebSocketServerHandle::port)
     }
 
     /// Shows another trial, in place of the one before.
-    pub(super) fn begin(self: &Arc<Self>) -> LiveTrial {
-        let mut shown = self.shown();
+    pub(super) fn begin(&self) -> LiveTrial {
+        let mut shown = self.0.shown();
         for topic in shown.topics.values() {
             topic.channel.close();
         }
-        if let (Some(server), false) = (self.server.get(), shown.topics.is_empty()) {
+        if let (Some(server), false) = (self.0.listening.get(), shown.topics.is_empty()) {
             server.clear_session(None);
         }
         *shown = Shown::default();
-        LiveTrial(Arc::clone(self))
+        LiveTrial(Arc::clone(&self.0))
     }
+}
 
+impl Server {
     /// Makes a topic known.
     ///
     /// The library tells viewers of a channel a moment before it takes subscriptions to it, so a quick one would be
@@ -115,7 +121,7 @@ impl Live {
     }
 
     fn tell_time(&self, now_ns: u64) {
-        if let Some(server) = self.server.get() {
+        if let Some(server) = self.listening.get() {
             server.broadcast_time(now_ns);
         }
     }
@@ -124,14 +130,14 @@ impl Live {
 impl Drop for Live {
     fn drop(&mut self) {
         // The server has no word for an empty queue.
-        if self.server.get().is_some_and(|server| server.client_count() > 0) {
+        if self.0.listening.get().is_some_and(|server| server.client_count() > 0) {
             std::thread::sleep(LAST_WORDS);
         }
     }
 }
 
 /// One trial, shown while it goes on.
-pub(super) struct LiveTrial(Arc<Live>);
+pub(super) struct LiveTrial(Arc<Server>);
 
 impl Sink for LiveTrial {
     fn open(&mut self, topic: &Topic) -> Result<(), LogError> {
@@ -182,15 +188,15 @@ impl ShownTopic {
 }
 
 /// Gives those who subscribe what they have missed.
-struct Latecomers(Weak<Live>);
+struct Latecomers(Weak<Server>);
 
 impl ServerListener for Latecomers {
     fn on_subscribe(&self, client: Client, channel: ChannelView) {
-        let Some(live) = self.0.upgrade() else { return };
-        let shown = live.shown();
+        let Some(server) = self.0.upgrade() else { return };
+        let shown = server.shown();
         if let Some(topic) = shown.topics.get(channel.topic()).filter(|topic| topic.channel.id() == channel.id()) {
             topic.send_kept(&client);
-            live.tell_time(shown.now_ns);
+            server.tell_time(shown.now_ns);
         }
     }
 }

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
 use std::io::BufWriter;
 use std::path::Path;
-use std::sync::Arc;
 
 use mcap::Compression;
 
@@ -21,7 +20,7 @@ pub struct Target<'a> {
     /// A file that exists is replaced.
     pub force: bool,
     /// To those who look on.
-    pub live: Option<&'a Arc<Live>>,
+    pub live: Option<&'a Live>,
 }
 
 /// The file fails for itself: those who look on see the trial to its end.

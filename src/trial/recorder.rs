@@ -42,7 +42,7 @@ impl Recorder {
         record: &Record,
     ) -> Result<Option<Self>, LogError> {
         let file = outputs.record.as_deref().map(|path| Outputs::named(path, id));
-        let target = Target { file: file.as_deref(), force: outputs.force, live: outputs.live.as_ref() };
+        let target = Target { file: file.as_deref(), force: outputs.force, live: outputs.live.as_deref() };
         if target.file.is_none() && target.live.is_none() {
             return Ok(None);
         }

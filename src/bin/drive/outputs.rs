@@ -78,7 +78,7 @@ impl Address {
         })?;
         reporter
             .remark(&format!("live at ws://{host}:{} (Foxglove: Open connection, Foxglove WebSocket)", live.port()));
-        Ok(live)
+        Ok(Arc::new(live))
     }
 }
 
