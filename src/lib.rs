@@ -16,7 +16,7 @@
 //! | [`perception`] | RGB-D frame → furniture with pose | `perceive` |
 //! | [`robot`] | a mobile base, real or simulated | |
 //! | [`drawing`] | plots of rooms, furniture and paths | |
-//! | [`recording`] | MCAP in and out | |
+//! | [`recording`] | MCAP in and out; live over a WebSocket | |
 //! | [`world`] | room map, furniture models, scene, what sensors see of it | |
 //! | [`frame`] | one RGB-D frame: colour, depth, intrinsics, camera pose | |
 //! | [`force`] | histogram of forces, degrees of truth | `hof` |

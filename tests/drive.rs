@@ -139,3 +139,10 @@ fn a_world_that_cannot_be_is_refused_by_the_item_with_what_mends_it() {
         assert!(ran.err.contains("home.scene.json") && ran.err.contains(message), "{}", ran.err);
     }
 }
+
+#[cfg(not(feature = "live"))]
+#[test]
+fn without_a_server_for_foxglove_live_says_how_to_build_one() {
+    let ran = run("drive", &["--live"], "").expect_code(2);
+    assert!(ran.err.contains("--live: this build has no server for Foxglove; build it with `--features live`"));
+}

@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 
 use common::{executable, run};
 use served::{AHEAD, Served};
-use spatial_fetch::recording::{FrameOptions, FrameReader};
+use spatial_fetch::recording::{FrameOptions, FrameReader, records};
 
 /// A recording of two seconds that shows a wall, near on the left and far on the right, as the recorder leaves it.
 fn record_into(folder: &Path) {
@@ -59,6 +59,7 @@ fn what_the_kinect_sees_is_in_the_log_in_metres() {
     let file = std::fs::File::open(&log).expect("a log");
     let frames = FrameReader::new(file, "trial.mcap", FrameOptions::default()).expect("a log");
     let frame = frames.flatten().next().expect("a frame").frame;
+    assert!(!records(&log, "/fetch/seen").expect("a log").is_empty());
     let at = |column: usize| f64::from(frame.depth[240 * 640 + column]) * frame.depth_unit_m;
     assert!((0.8..0.95).contains(&at(150)) && (1.5..2.2).contains(&at(500)), "{} {}", at(150), at(500));
 }

@@ -6,6 +6,8 @@ use foxglove::messages::{CameraCalibration, FrameTransform, FrameTransforms, Qua
 use nalgebra::Isometry3;
 
 use super::log_writer::LogWriter;
+use super::mcap_sink::McapSink;
+use super::sink::Sink;
 use super::timed_frame::{in_space, optical_from_link};
 use super::{LogError, TimedFrame, time};
 use crate::frame::RgbdFrame;
@@ -42,13 +44,13 @@ const OPTICAL: &str = "camera_optical_frame";
 /// # Ok::<(), spatial_fetch::recording::LogError>(())
 /// ```
 pub struct FrameWriter<W: Write> {
-    log: LogWriter<W>,
+    log: LogWriter<McapSink<W>>,
 }
 
 impl<W: Write> FrameWriter<W> {
     /// Begins a log of frames, uncompressed.
     pub fn new(target: W) -> Result<Self, LogError> {
-        Ok(Self { log: LogWriter::new(target, None)? })
+        Ok(Self { log: LogWriter::new(McapSink::new(target, None)?) })
     }
 
     /// Writes one frame and flushes it.
@@ -60,12 +62,12 @@ impl<W: Write> FrameWriter<W> {
 
     /// Ends the log.
     pub fn finish(self) -> Result<W, LogError> {
-        self.log.finish()
+        self.log.into_sink().finish()
     }
 }
 
 /// Camera, colour, then depth: with depth the frame is complete.
-pub(super) fn write_pictures<W: Write>(log: &mut LogWriter<W>, timed: &TimedFrame) -> Result<(), LogError> {
+pub(super) fn write_pictures<S: Sink>(log: &mut LogWriter<S>, timed: &TimedFrame) -> Result<(), LogError> {
     let TimedFrame { stamp_ns, log_ns, frame, .. } = timed;
     log.message(INFO, *log_ns, &calibration(frame, *stamp_ns))?;
     if !frame.color.is_empty() {

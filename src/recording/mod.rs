@@ -1,4 +1,4 @@
-//! MCAP in and out.
+//! MCAP in and out, and live over a WebSocket.
 //!
 //! Spatial data as Foxglove's protobuf schemas, our own records as JSON, one
 //! line one message, byte for byte. Times are the trial's own seconds from
@@ -13,9 +13,12 @@ mod error;
 mod follow;
 mod frame_reader;
 mod frame_writer;
+#[cfg_attr(not(feature = "live"), path = "no_live.rs")]
+mod live;
 mod log_reader;
 mod log_writer;
 mod losses;
+mod mcap_sink;
 mod mount;
 mod pictures;
 mod record_reader;
@@ -23,20 +26,24 @@ mod record_schema;
 mod roles;
 mod sensed;
 mod shapes;
+mod sink;
 mod time;
 mod timed_frame;
 mod transform_tree;
 mod trial_log;
+mod trial_sinks;
 mod window;
 
 pub use error::{LogError, Loss};
 pub use follow::Follow;
 pub use frame_reader::{FrameOptions, FrameReader};
 pub use frame_writer::FrameWriter;
+pub use live::Live;
 pub use log_reader::LogReader;
 pub use record_reader::{RecordReader, records};
 pub use shapes::Piece;
 pub use time::nanoseconds;
 pub use timed_frame::TimedFrame;
 pub use trial_log::TrialLog;
+pub use trial_sinks::Target;
 pub use window::Window;

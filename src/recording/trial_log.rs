@@ -1,12 +1,8 @@
 //! The log of one trial, to be opened in Foxglove as it is.
 
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions};
-use std::io::BufWriter;
-use std::path::Path;
 
 use foxglove::messages::{Color, CompressedImage, FrameTransforms, Log, Pose as Pose3, PoseInFrame, PosesInFrame, log};
-use mcap::Compression;
 use nalgebra::Isometry3;
 use serde::Serialize;
 
@@ -17,7 +13,8 @@ use super::record_schema::RECORD_SCHEMA;
 use super::shapes::{self, Piece, pose3};
 use super::time::{nanoseconds, timestamp};
 use super::timed_frame::in_space;
-use super::{LogError, TimedFrame};
+use super::trial_sinks::TrialSinks;
+use super::{LogError, Target, TimedFrame};
 use crate::geometry::{ClearanceGrid, Pose, Vec2};
 use crate::world::camera::Camera;
 
@@ -29,7 +26,7 @@ const PATH_SPACING_M: f64 = 0.1;
 /// Writes one trial while it goes on: what has been flushed can be read whatever happens next.
 pub struct TrialLog {
     name: String,
-    log: LogWriter<BufWriter<File>>,
+    log: LogWriter<TrialSinks>,
     path: Vec<Pose>,
     flushed_s: f64,
     failed: Option<LogError>,
@@ -43,26 +40,20 @@ struct Velocity {
 }
 
 impl TrialLog {
-    /// Begins a log at `path`; refuses a file that exists unless `force`. `camera` is where it sits on the robot,
-    /// `about` says how the trial is run.
-    pub fn create(
-        path: &Path,
-        force: bool,
-        camera: &Camera,
-        about: BTreeMap<String, String>,
-    ) -> Result<Self, LogError> {
-        let name = path.display().to_string();
-        let log = Self::begin(open(path, force)?, camera, about).map_err(|error| error.named(&name))?;
+    /// Begins a log; refuses a file that exists unless forced. `camera` is where it sits on the robot, `about` says
+    /// how the trial is run.
+    pub fn create(target: &Target, camera: &Camera, about: BTreeMap<String, String>) -> Result<Self, LogError> {
+        let name = target.file.map_or("the log".to_string(), |path| path.display().to_string());
+        let log = Self::begin(target, camera, about).map_err(|error| error.named(&name))?;
         Ok(Self { name, log, path: Vec::new(), flushed_s: 0.0, failed: None })
     }
 
     fn begin(
-        file: File,
+        target: &Target,
         camera: &Camera,
         about: BTreeMap<String, String>,
-    ) -> Result<LogWriter<BufWriter<File>>, LogError> {
-        let mut log = LogWriter::new(BufWriter::new(file), Some(Compression::Zstd))?;
-        log.metadata("spatial_fetch", about)?;
+    ) -> Result<LogWriter<TrialSinks>, LogError> {
+        let mut log = LogWriter::new(TrialSinks::open(target, about)?);
         let link = |parent: &str, child: &str, pose| transform(0, parent, child, pose);
         let fixed = vec![
             link("map", "odom", Isometry3::identity()),
@@ -79,10 +70,10 @@ impl TrialLog {
         self.failed.is_some()
     }
 
-    /// Writes, unless a write has failed before: a simulated trial is not broken off for its log's sake.
-    fn put(&mut self, write: impl FnOnce(&mut LogWriter<BufWriter<File>>) -> Result<(), LogError>) {
-        if self.failed.is_none() {
-            self.failed = write(&mut self.log).err();
+    /// Writes; a simulated trial is not broken off for its log's sake.
+    fn put(&mut self, write: impl FnOnce(&mut LogWriter<TrialSinks>) -> Result<(), LogError>) {
+        if let Err(error) = write(&mut self.log) {
+            self.failed.get_or_insert(error);
         }
     }
 
@@ -201,7 +192,7 @@ impl TrialLog {
         self.flush(time_s);
         let finished = match self.failed {
             Some(error) => Err(error),
-            None => self.log.finish().map(|_| ()),
+            None => self.log.into_sink().finish(),
         };
         finished.map_err(|error| error.named(&self.name))
     }
@@ -214,24 +205,11 @@ const OPTIONS_SCHEMA: &str = r#"{"type":"object","properties":{"options":{"type"
 const VELOCITY_SCHEMA: &str =
     r#"{"type":"object","properties":{"linear_m_s":{"type":"number"},"angular_rad_s":{"type":"number"}}}"#;
 
-/// A pipe or a device is written to as it is; a file is new, or replaced when `force`.
-fn open(path: &Path, force: bool) -> Result<File, LogError> {
-    let name = || path.display().to_string();
-    let special = path.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir());
-    let mut options = OpenOptions::new();
-    match (special, force) {
-        (true, _) => options.write(true),
-        (false, true) => options.write(true).create(true).truncate(true),
-        (false, false) => options.write(true).create_new(true),
-    };
-    options.open(path).map_err(|error| match error.kind() {
-        std::io::ErrorKind::AlreadyExists => LogError::Exists(name()),
-        _ => LogError::System(name(), error),
-    })
-}
-
 #[cfg(test)]
 mod tests {
+    use std::fs::File;
+    use std::path::Path;
+
     use super::*;
     use crate::frame::{Intrinsics, RgbdFrame};
     use crate::recording::timed_frame::optical_from_link;
@@ -241,8 +219,12 @@ mod tests {
         optical_from_link().inverse()
     }
 
+    fn into(path: &Path) -> Target<'_> {
+        Target { file: Some(path), force: true, live: None }
+    }
+
     fn write(path: &Path) {
-        let mut log = TrialLog::create(path, true, &Camera::kinect(), BTreeMap::new()).expect("created");
+        let mut log = TrialLog::create(&into(path), &Camera::kinect(), BTreeMap::new()).expect("created");
         log.walls(&[(Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0))], 2.5);
         log.pose(0.1, Pose::new(1.0, 2.0, 0.5), (0.3, 0.0));
         log.sonar(0.1, &[Vec2::new(1.0, 0.0)]);
@@ -264,7 +246,7 @@ mod tests {
     fn the_camera_s_frames_come_back_where_they_were_taken() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("log.mcap");
-        let mut log = TrialLog::create(&path, true, &Camera::kinect(), BTreeMap::new()).expect("created");
+        let mut log = TrialLog::create(&into(&path), &Camera::kinect(), BTreeMap::new()).expect("created");
         let robot = Pose::new(1.0, 2.0, 0.5);
         let world_from_optical = in_space(robot) * tower_link(&Camera::kinect()) * link_from_optical();
         let matrix = world_from_optical.to_homogeneous();
@@ -307,8 +289,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("log.mcap");
         write(&path);
-        let error =
-            TrialLog::create(&path, false, &Camera::kinect(), BTreeMap::new()).err().expect("refused").to_string();
+        let target = Target { force: false, ..into(&path) };
+        let error = TrialLog::create(&target, &Camera::kinect(), BTreeMap::new()).err().expect("refused").to_string();
         assert!(error.contains("exists; name another file or give --force"), "{error}");
     }
 }

@@ -11,6 +11,7 @@ mod judge;
 #[cfg(feature = "kinect")]
 mod kinect;
 mod outputs;
+mod pace;
 mod placing;
 mod real;
 mod recorder;

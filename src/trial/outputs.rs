@@ -1,6 +1,7 @@
-//! What a trial leaves beside its record: a plot, a picture, a log.
+//! What a trial leaves beside its record: a plot, a picture, a log; and who may look on.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -8,6 +9,7 @@ use rand_chacha::rand_core::SeedableRng;
 use super::{Home, Run};
 use crate::drawing::{Outline, Plot};
 use crate::frame::RgbdFrame;
+use crate::recording::Live;
 use crate::world::camera::{Kinect, SolidScene};
 
 /// Where the files go; `{id}` in a name stands for the record's id.
@@ -19,6 +21,10 @@ pub struct Outputs {
     pub picture: Option<PathBuf>,
     /// Log of the trial, MCAP.
     pub record: Option<PathBuf>,
+    /// The log, to those who look on.
+    pub live: Option<Arc<Live>>,
+    /// A simulated trial goes on at so many times the time of day; as fast as it can where nothing is said.
+    pub pace: Option<f64>,
     /// Overwrite files that exist.
     pub force: bool,
     /// How the trial is run, for the log: a JSON line, or nothing.

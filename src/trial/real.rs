@@ -12,7 +12,7 @@ use crate::behavior::{Executive, Furniture, Silent, Watcher};
 use crate::files::{FileError, write_file};
 use crate::frame::RgbdFrame;
 use crate::geometry::{ClearanceGrid, Pose};
-use crate::perception::Eyes;
+use crate::perception::{Eyes, View};
 use crate::record::{Note, PathPoint, Plan, Record, Stage, StageError, Trial};
 use crate::robot::MobileBase;
 use crate::robot::arcos::client::{ArcosBase, Stopper};
@@ -116,14 +116,8 @@ impl RealDriver {
         let mut robot = self.robot();
         let Robot { base, eyes } = &mut *robot;
         base.begin_trial();
-        let recorder = match &self.outputs.record {
-            Some(path) => {
-                let path = Outputs::named(path, id);
-                let made = Recorder::new(&path, self.outputs.force, &self.home, &self.settings, record);
-                Some(made.map_err(|error| failed(error.to_string()))?)
-            }
-            None => None,
-        };
+        let recorder = Recorder::begin(&self.outputs, id, &self.home, &self.settings, record);
+        let recorder = recorder.map_err(|error| failed(error.to_string()))?;
         let mut log = Log {
             recorder,
             silent: Silent,
@@ -236,6 +230,10 @@ impl Watcher for Log<'_> {
 
     fn frame(&mut self, time_s: f64, believed: Pose, frame: &RgbdFrame) {
         self.inner().frame(time_s, believed, frame);
+    }
+
+    fn seen(&mut self, time_s: f64, view: &View) {
+        self.inner().seen(time_s, view);
     }
 
     fn grid(&mut self, time_s: f64, grid: &ClearanceGrid) {

@@ -1,16 +1,15 @@
 //! A watcher that writes the log of a trial.
 
-use std::path::Path;
-
 use serde::Serialize;
 
-use super::{Home, Run, Settings};
+use super::pace::Pace;
+use super::{Home, Outputs, Run, Settings};
 use crate::behavior::{Furniture, Watcher, grid_of};
 use crate::frame::RgbdFrame;
 use crate::geometry::{ClearanceGrid, Pose, vec2};
 use crate::perception::View;
 use crate::record::{Detection, Record};
-use crate::recording::{LogError, Piece, TimedFrame, TrialLog};
+use crate::recording::{LogError, Piece, Target, TimedFrame, TrialLog};
 use crate::robot::{MobileBase, p3dx};
 
 /// The keys the stages add, in their order, under the stage's name.
@@ -29,17 +28,24 @@ pub const OPTIONS_TOPIC: &str = "/fetch/options";
 /// Writes what the executive does, as it happens.
 pub(super) struct Recorder {
     log: TrialLog,
+    pace: Option<Pace>,
 }
 
 impl Recorder {
-    /// Begins the log of a trial of `record`, with the record as each stage before wrote it.
-    pub(super) fn new(
-        path: &Path,
-        force: bool,
+    /// Begins the log of a trial of `record`, with the record as each stage before wrote it; nothing where nobody
+    /// wants a log.
+    pub(super) fn begin(
+        outputs: &Outputs,
+        id: &str,
         home: &Home,
         settings: &Settings,
         record: &Record,
-    ) -> Result<Self, LogError> {
+    ) -> Result<Option<Self>, LogError> {
+        let file = outputs.record.as_deref().map(|path| Outputs::named(path, id));
+        let target = Target { file: file.as_deref(), force: outputs.force, live: outputs.live.as_deref() };
+        if target.file.is_none() && target.live.is_none() {
+            return Ok(None);
+        }
         let about = [
             ("version", env!("CARGO_PKG_VERSION").to_string()),
             ("map", home.map.name.clone()),
@@ -47,7 +53,7 @@ impl Recorder {
             ("settings", format!("{settings:?}")),
         ];
         let about = about.into_iter().map(|(name, value)| (name.to_string(), value)).collect();
-        let mut log = TrialLog::create(path, force, &home.camera(), about)?;
+        let mut log = TrialLog::create(&target, &home.camera(), about)?;
         for (stage, line) in inputs(record) {
             log.record(0.0, stage, &line);
         }
@@ -60,7 +66,12 @@ impl Recorder {
             height: item.size().height,
         });
         log.truth(&pieces.collect::<Vec<_>>());
-        Ok(Self { log })
+        Ok(Some(Self { log, pace: None }))
+    }
+
+    /// Holds the trial back to `times` the time of day from now on.
+    pub(super) fn keep_pace(&mut self, times: f64) {
+        self.pace = Some(Pace::new(times));
     }
 
     /// Whether the log can no longer be written.
@@ -109,6 +120,9 @@ impl Watcher for Recorder {
             .map(|reading| reading.mount + vec2(reading.bearing.cos(), reading.bearing.sin()) * reading.range_m)
             .collect();
         self.log.sonar(base.time_s(), &echoes);
+        if let Some(pace) = &self.pace {
+            pace.wait(base.time_s());
+        }
     }
 
     fn frame(&mut self, time_s: f64, believed: Pose, frame: &RgbdFrame) {

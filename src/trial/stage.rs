@@ -21,17 +21,18 @@ pub struct Driver {
 
 impl Driver {
     fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
-        let Some(path) = &self.outputs.record else {
+        let failed = |error: LogError| StageError::new(error.to_string());
+        let recorder = Recorder::begin(&self.outputs, id, &self.home, &self.settings, record).map_err(failed)?;
+        let Some(mut recorder) = recorder else {
             let mut run = run(&self.home, plan, &self.settings, stream_of(id), &mut Silent);
             self.leave(&mut run, record, id)?;
             record.set("trial", &run.trial);
             return Ok(());
         };
-        let path = Outputs::named(path, id);
-        let failed = |error: LogError| StageError::new(error.to_string());
-        let force = self.outputs.force;
-        let mut recorder = Recorder::new(&path, force, &self.home, &self.settings, record).map_err(failed)?;
         recorder.options(&self.outputs.options);
+        if let Some(times) = self.outputs.pace {
+            recorder.keep_pace(times);
+        }
         let mut run = run(&self.home, plan, &self.settings, stream_of(id), &mut recorder);
         self.leave(&mut run, record, id)?;
         record.set("trial", &run.trial);

@@ -83,7 +83,8 @@ impl Arguments {
             noise: self.noise,
             seed: self.common.seed,
         };
-        let outputs = self.outputs.outputs(self.common.force, replay::recorded_line()?);
+        let watched = self.outputs.is_live();
+        let outputs = self.outputs.outputs(self.common.force, replay::recorded_line()?, &reporter)?;
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
         let (driver, common): (Box<dyn Stage>, Common) = if self.robot.is_real() {
             // One robot, one plan at a time.
@@ -92,7 +93,9 @@ impl Arguments {
             let driver = self.robot.driver(home.map, settings, outputs, reporter)?;
             (Box::new(driver.while_heard(move || to_stdout && cli::is_output_closed())), common)
         } else {
-            (Box::new(Driver { home, settings, outputs }), self.common)
+            // Nobody watches two trials at once.
+            let common = if watched { Common { jobs: 1, ..self.common } } else { self.common };
+            (Box::new(Driver { home, settings, outputs }), common)
         };
         cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, driver.as_ref())
     }

@@ -1,8 +1,13 @@
-//! What a trial leaves beside its record.
+//! What a trial leaves beside its record, and who may look on.
 
+use std::io;
 use std::path::PathBuf;
+use std::str::FromStr;
+use std::sync::Arc;
 
 use clap::Args;
+use spatial_fetch::cli::{Failure, Reporter};
+use spatial_fetch::recording::Live;
 use spatial_fetch::trial::Outputs;
 
 #[derive(Args)]
@@ -17,10 +22,67 @@ pub struct Arguments {
     /// Log the trial; {id} stands for the record's id
     #[arg(long, value_name = "FILE.mcap")]
     record: Option<PathBuf>,
+    /// Show the trials, one at a time and in real time, to Foxglove at this address (127.0.0.1:8765 where none is given; a build with the feature `live`)
+    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = "127.0.0.1:8765", conflicts_with = "serve")]
+    live: Option<Address>,
+    /// Show simulated trials so many times faster than real time
+    #[arg(long, value_name = "TIMES", requires = "live", default_value_t = 1.0, value_parser = times)]
+    live_speed: f64,
 }
 
 impl Arguments {
-    pub fn outputs(self, force: bool, options: String) -> Outputs {
-        Outputs { plot: self.plot, picture: self.picture, record: self.record, force, options }
+    pub fn is_live(&self) -> bool {
+        self.live.is_some()
     }
+
+    pub fn outputs(self, force: bool, options: String, reporter: &Reporter) -> Result<Outputs, Failure> {
+        let live = self.live.as_ref().map(|address| address.serve(reporter)).transpose()?;
+        let pace = live.is_some().then_some(self.live_speed);
+        Ok(Outputs { plot: self.plot, picture: self.picture, record: self.record, live, pace, force, options })
+    }
+}
+
+/// Where Foxglove is served.
+#[derive(Clone, Debug)]
+struct Address {
+    host: String,
+    port: u16,
+}
+
+impl FromStr for Address {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parts = text.rsplit_once(':').filter(|(host, _)| !host.is_empty());
+        let parsed = parts.and_then(|(host, port)| Some(Self { host: host.to_string(), port: port.parse().ok()? }));
+        parsed.ok_or_else(|| "not HOST:PORT, as 127.0.0.1:8765; name files before `--live`, or after `--`".to_string())
+    }
+}
+
+impl Address {
+    fn serve(&self, reporter: &Reporter) -> Result<Arc<Live>, Failure> {
+        if cfg!(not(feature = "live")) {
+            let what = "--live: this build has no server for Foxglove; build it with `--features live`";
+            return Err(Failure::Usage(what.to_string()));
+        }
+        let Self { host, port } = self;
+        let live = Live::serve(host, *port).map_err(|error| {
+            let mend = match error.kind() {
+                io::ErrorKind::AddrInUse => format!(
+                    "; another program serves there: end it, or name another port, as `--live {host}:{}`",
+                    port.checked_add(1).unwrap_or(8765)
+                ),
+                _ => "; name an address of this machine, as `--live 127.0.0.1:8765`".to_string(),
+            };
+            Failure::Failed(format!("--live {host}:{port}: {error}{mend}"))
+        })?;
+        reporter
+            .remark(&format!("live at ws://{host}:{} (Foxglove: Open connection, Foxglove WebSocket)", live.port()));
+        Ok(Arc::new(live))
+    }
+}
+
+fn times(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_string())?;
+    if (0.01..=10_000.0).contains(&value) { Ok(value) } else { Err("must be from 0.01 to 10000".to_string()) }
 }
