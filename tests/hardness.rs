@@ -13,6 +13,7 @@ use common::{executable, pipe, run};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use spatial_fetch::geometry::Pose;
+use spatial_fetch::perception::FrameFiles;
 use spatial_fetch::world::camera::{Camera, Kinect, SolidScene};
 use spatial_fetch::world::{RoomMap, Scene};
 
@@ -42,13 +43,10 @@ fn frame_line() -> String {
         let kinect = Kinect { camera: Camera::kinect().coarser(4), ..Kinect::default() };
         let mut rng = ChaCha8Rng::seed_from_u64(1);
         let (frame, _) = kinect.capture(&solids, Pose::new(3.0, 2.0, 0.4), &mut rng);
-        std::fs::write(folder.path().join("depth.png"), frame.depth_png()).expect("written");
-        std::fs::write(folder.path().join("rgb.png"), frame.color_png()).expect("written");
-        let k = frame.intrinsics;
-        let line = serde_json::json!({
-            "depth": folder.path().join("depth.png"), "rgb": folder.path().join("rgb.png"),
-            "fx": k.fx, "fy": k.fy, "cx": k.cx, "cy": k.cy, "depth_unit_m": 0.001, "T_world_cam": frame.world_from_camera,
-        });
+        let [rgb, depth] = ["rgb.png", "depth.png"].map(|name| folder.path().join(name));
+        std::fs::write(&rgb, frame.color_png()).expect("written");
+        std::fs::write(&depth, frame.depth_png()).expect("written");
+        let line = serde_json::to_string(&FrameFiles::of(&frame, rgb, depth)).expect("a line");
         std::fs::write(folder.path().join("frames.jsonl"), format!("{line}\n")).expect("written");
         folder
     });

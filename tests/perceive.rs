@@ -139,3 +139,23 @@ fn a_frame_without_a_pose_is_seen_from_over_its_own_floor() {
         }
     }
 }
+
+#[test]
+fn text_in_the_place_of_frames_is_told_what_perceive_reads() {
+    for arguments in [&[][..], &["--fuse"]] {
+        let told = run("perceive", arguments, "# Spatial fetch\n").expect_code(1).err;
+        assert!(told.contains("not a JSON object; `perceive` reads a frame a line"), "{told}");
+        assert!(!told.contains("chunk"), "text is no way to a frame: {told}");
+    }
+}
+
+#[test]
+fn blank_lines_between_frames_are_passed_over() {
+    let (_folder, index) = frames(1);
+    let spaced = format!("\n{}\n", std::fs::read_to_string(&index).expect("readable"));
+    let folder = folder_of(&index);
+    for option in [&[][..], &["--fuse"]] {
+        let seen = run("perceive", &[&["--folder", &folder], option].concat(), &spaced).expect_code(0);
+        assert_eq!(seen.records().len(), 1, "{}", seen.out);
+    }
+}

@@ -8,14 +8,14 @@ mod served;
 use std::io::{self, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use common::{executable, run};
-use served::{AHEAD, FAR_AHEAD, Served, home_in, wait_for};
+use served::{AHEAD, FAR_AHEAD, Served, home_in, start_with_plan, wait_for};
 use spatial_fetch::geometry::Pose;
 use spatial_fetch::perception::{Eyes, View};
 use spatial_fetch::record::{Record, Stage};
@@ -40,21 +40,17 @@ fn expect_broken_off(served: &Served) {
     assert!(driven < 3.0, "{driven} m driven");
 }
 
-fn write_plan(stdin: Option<std::process::ChildStdin>, plan: &str) {
-    writeln!(stdin.expect("piped"), "{plan}").expect("written");
+/// `drive` with the robot at `address` and the map `map`.
+fn drive(address: &str, map: &str) -> Command {
+    let mut client = Command::new(executable("drive"));
+    client.args(["--robot", address, "--map", map]);
+    client
 }
 
 #[test]
 fn an_output_that_is_closed_in_mid_drive_stops_the_robot() {
     let served = Served::start(&[]);
-    let mut child = Command::new(executable("drive"))
-        .args(["--robot", &served.address(), "--map", &served.map()])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("starts");
-    write_plan(child.stdin.take(), FAR_AHEAD);
+    let mut child = start_with_plan(&mut drive(&served.address(), &served.map()), FAR_AHEAD);
     wait_for("motion", || served.speed() > 0.1);
     drop(child.stdout.take());
     assert_eq!(child.wait().expect("ends").code(), Some(0), "a closed pipe is a quiet end");
@@ -67,17 +63,12 @@ fn a_disk_that_fills_up_in_mid_drive_stops_the_robot_and_is_said() {
     let served = Served::start(&[]);
     let log = served.path("trial.mcap");
     // No file of this process may grow beyond 34 blocks of 512 bytes: what is written before driving off, and a little.
-    let mut child = Command::new("sh")
+    let mut limited = Command::new("sh");
+    limited
         .args(["-c", r#"trap "" XFSZ; ulimit -f 34; exec "$@""#, "sh", executable("drive")])
         .args(["--robot", &served.address(), "--map", &served.map(), "--record"])
-        .arg(&log)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("starts");
-    write_plan(child.stdin.take(), FAR_AHEAD);
-    let ended = child.wait_with_output().expect("ends");
+        .arg(&log);
+    let ended = start_with_plan(&mut limited, FAR_AHEAD).wait_with_output().expect("ends");
     let said = String::from_utf8(ended.stderr).expect("UTF-8");
     assert_eq!(ended.status.code(), Some(1), "{said}");
     assert!(said.contains("trial.mcap: ") && said.contains("too large"), "{said}");
@@ -154,14 +145,8 @@ fn a_line_that_breaks_is_connected_again_when_asked_and_the_trial_goes_on() {
     let served = Served::start_at_port(robot);
     let cut = Arc::new(AtomicBool::new(false));
     let port = cable(robot, Arc::clone(&cut));
-    let mut child = Command::new(executable("drive"))
-        .args(["--robot", &format!("tcp:127.0.0.1:{port}"), "--map", &served.map(), "--reconnect"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("starts");
-    write_plan(child.stdin.take(), FAR_AHEAD);
+    let mut client = drive(&format!("tcp:127.0.0.1:{port}"), &served.map());
+    let child = start_with_plan(client.arg("--reconnect"), FAR_AHEAD);
     wait_for("motion", || served.speed() > 0.1);
     cut.store(true, Ordering::SeqCst);
     let ended = child.wait_with_output().expect("ends");
@@ -214,15 +199,7 @@ impl OwnRobot {
     fn drive_through_a_stop(&self, option: &[&str]) -> (serde_json::Value, String) {
         let map = self.folder.path().join("home.map.json").display().to_string();
         let address = format!("serial:{}@38400", self.folder.path().join("p3dx").display());
-        let mut child = Command::new(executable("drive"))
-            .args(["--robot", &address, "--map", &map, "--no-localization"])
-            .args(option)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("starts");
-        write_plan(child.stdin.take(), AHEAD);
+        let child = start_with_plan(drive(&address, &map).arg("--no-localization").args(option), AHEAD);
         wait_for("motion", || self.is_moving());
         self.stop_button.store(true, Ordering::SeqCst);
         wait_for("a standstill", || self.speed.load(Ordering::SeqCst) == 0);

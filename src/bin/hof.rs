@@ -41,7 +41,8 @@ impl Program for Arguments {
         let Self { forces, directions, frame, fuzzy, svg, common } = self;
         let pictures = svg.map(|folder| Pictures { folder, overwrite: common.force });
         let stage = Describer { forces, directions: directions as usize, frame, fuzzy, pictures };
-        cli::run_filter(Self::NAME, &common, Intake::Records, &stage)
+        let intake = Intake::Own(r#"`hof` reads two shapes a line, {"a": …, "b": …}; see --help"#);
+        cli::run_filter(Self::NAME, &common, intake, &stage)
     }
 }
 

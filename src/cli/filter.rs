@@ -13,8 +13,10 @@ const BATCH_LINES: usize = 1024;
 /// What a filter takes for a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Intake {
-    /// JSON objects only.
+    /// JSON objects only, that earlier stages made of text.
     Records,
+    /// JSON objects of the program's own; what to give it, when a line is none.
+    Own(&'static str),
     /// JSON objects, or plain lines that become `{"id": …, "text": …}`.
     RecordsOrText,
 }
@@ -106,22 +108,21 @@ fn report(outcomes: &[Outcome], reporter: &Reporter) -> bool {
 
 fn process(line: &Line, intake: Intake, format: Format, stage: &dyn Stage) -> Outcome {
     let mut outcome = Outcome::default();
-    let text = match std::str::from_utf8(&line.bytes) {
-        Ok(text) => text,
-        Err(error) => {
-            let message = "this byte is not UTF-8; convert the file, for example with iconv";
-            outcome.error = Some(Diagnostic::at(line, error.valid_up_to(), None, message));
-            return outcome;
-        }
-    };
-    if text.trim().is_empty() {
-        return outcome;
-    }
-    match parse(line, text, intake) {
-        Ok(record) => finish(line, record, format, stage, &|record| stage.run(record), &mut outcome),
+    match record_of(line, intake) {
+        Ok(None) => {}
+        Ok(Some(record)) => finish(line, record, format, stage, &|record| stage.run(record), &mut outcome),
         Err(error) => outcome.error = Some(error),
     }
     outcome
+}
+
+/// The record on a line; none on a blank one.
+pub fn record_of(line: &Line, intake: Intake) -> Result<Option<Record<'_>>, Diagnostic> {
+    let text = std::str::from_utf8(&line.bytes).map_err(|error| {
+        let message = "this byte is not UTF-8; convert the file, for example with iconv";
+        Diagnostic::at(line, error.valid_up_to(), None, message)
+    })?;
+    if text.trim().is_empty() { Ok(None) } else { parse(line, text, intake).map(Some) }
 }
 
 fn parse<'line>(line: &Line, text: &'line str, intake: Intake) -> Result<Record<'line>, Diagnostic> {
@@ -134,7 +135,8 @@ fn parse<'line>(line: &Line, text: &'line str, intake: Intake) -> Result<Record<
         if error.is_eof() && !line.terminated {
             message.push_str("; the input ends in the middle of this record");
         } else if !looks_like_json {
-            message = "not a JSON object; pipe plain text through `chunk` first".to_string();
+            let mend = if let Intake::Own(mend) = intake { mend } else { "pipe plain text through `chunk` first" };
+            message = format!("not a JSON object; {mend}");
         }
         Diagnostic::at(line, error.column().saturating_sub(1), None, message)
     })

@@ -25,7 +25,7 @@ pub use arguments::{ColorChoice, Common, Format};
 pub use diagnostic::{Diagnostic, Reporter};
 pub use exit::{Exit, Failure};
 pub use eyes::EyeArguments;
-pub use filter::{Intake, run_filter, run_filter_on};
+pub use filter::{Intake, record_of, run_filter, run_filter_on};
 pub use frame_input::{FrameInput, FrameItem, FrameLogs, See, run_frames};
 pub use home::HomeArguments;
 pub use input::{Inputs, Line, read_file};

@@ -25,7 +25,8 @@ impl Driver {
         let recorder = Recorder::begin(&self.outputs, id, &self.home, &self.settings, record).map_err(failed)?;
         let Some(mut recorder) = recorder else {
             let mut run = run(&self.home, plan, &self.settings, stream_of(id), &mut Silent);
-            self.leave(&mut run, record, id)?;
+            let picture = self.outputs.picture.is_some().then(|| self.take_picture(&run));
+            self.leave(&mut run, picture.as_deref(), record, id)?;
             record.set("trial", &run.trial);
             return Ok(());
         };
@@ -34,25 +35,30 @@ impl Driver {
             recorder.keep_pace(times);
         }
         let mut run = run(&self.home, plan, &self.settings, stream_of(id), &mut recorder);
-        self.leave(&mut run, record, id)?;
+        let picture = self.take_picture(&run);
+        self.leave(&mut run, Some(&picture), record, id)?;
         record.set("trial", &run.trial);
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
-        recorder.finish(&run, Outputs::take_picture(&self.home, &run).color_png(), &line).map_err(failed)
+        recorder.finish(&run, picture, &line).map_err(failed)
     }
 
-    /// Writes the plot and the picture.
-    fn leave(&self, run: &mut Run, record: &Record, id: &str) -> Result<(), StageError> {
+    /// What the camera shows at the end, PNG.
+    fn take_picture(&self, run: &Run) -> Vec<u8> {
+        Outputs::take_picture(&self.home, run).color_png()
+    }
+
+    /// Writes the plot and the picture, where they are wanted.
+    fn leave(&self, run: &mut Run, png: Option<&[u8]>, record: &Record, id: &str) -> Result<(), StageError> {
         let failed = |error: FileError| StageError::new(error.to_string());
         if let Some(path) = &self.outputs.plot {
             let title: String = record.get("text")?.unwrap_or_default();
             let svg = Outputs::draw_plot(&self.home, run, &title);
             write_file(&Outputs::named(path, id), svg.as_bytes(), self.outputs.force).map_err(failed)?;
         }
-        if let Some(folder) = &self.outputs.picture {
+        if let (Some(folder), Some(png)) = (&self.outputs.picture, png) {
             let name = format!("{}.png", file_name(id));
             std::fs::create_dir_all(folder).map_err(|e| StageError::new(format!("{}: {e}", folder.display())))?;
-            let png = Outputs::take_picture(&self.home, run).color_png();
-            write_file(&folder.join(&name), &png, self.outputs.force).map_err(failed)?;
+            write_file(&folder.join(&name), png, self.outputs.force).map_err(failed)?;
             run.trial.picture = Some(name);
         }
         Ok(())

@@ -135,3 +135,10 @@ pub fn client(served: &Served, log: &Path, plan: &str) -> Child {
     writeln!(stdin, "{plan}").expect("written");
     child
 }
+
+/// Starts a client with pipes on all sides, gives it `plan` and closes its input.
+pub fn start_with_plan(client: &mut Command, plan: &str) -> Child {
+    let mut child = client.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("starts");
+    writeln!(child.stdin.take().expect("piped"), "{plan}").expect("written");
+    child
+}

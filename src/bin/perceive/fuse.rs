@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 use spatial_fetch::cli::{
-    Common, Diagnostic, Exit, Failure, Format, FrameInput, FrameItem, Line, Reporter, Source, open_output,
+    self, Common, Diagnostic, Exit, Failure, Format, FrameInput, FrameItem, Line, Reporter, Source, open_output,
 };
 use spatial_fetch::perception::{Perceiver, SceneView, Scenes, scene_of};
-use spatial_fetch::record::{Record, StageError};
+use spatial_fetch::record::StageError;
 
 /// Looks at every frame and writes one record a scene, in the order in which scenes first appear.
 pub fn run(common: &Common, input: FrameInput, perceiver: &Perceiver) -> Result<Exit, Failure> {
@@ -13,7 +13,9 @@ pub fn run(common: &Common, input: FrameInput, perceiver: &Perceiver) -> Result<
         Gathering { common, reporter: Reporter::new("perceive", common), scenes: Scenes::default(), exit: Exit::Done };
     match input {
         FrameInput::Lines(mut lines) => gathering.gather(&mut lines, &|line| look_at_line(perceiver, line))?,
-        FrameInput::Logs(mut logs) => gathering.gather(logs.as_mut(), &|item| look_at_item(perceiver, item))?,
+        FrameInput::Logs(mut logs) => {
+            gathering.gather(logs.as_mut(), &|item| look_at_item(perceiver, item).map(Some))?
+        }
     }
     let sink = open_output(common)?;
     for scene in gathering.scenes.fused() {
@@ -38,7 +40,7 @@ impl Gathering<'_> {
     fn gather<T: Sync>(
         &mut self,
         source: &mut dyn Source<T>,
-        look: &(dyn Fn(&T) -> Result<SceneView, Diagnostic> + Sync),
+        look: &(dyn Fn(&T) -> Result<Option<SceneView>, Diagnostic> + Sync),
     ) -> Result<(), Failure> {
         loop {
             let batch = source.next_batch(256)?;
@@ -49,10 +51,10 @@ impl Gathering<'_> {
             if batch.is_empty() {
                 return Ok(());
             }
-            let seen: Vec<Result<SceneView, Diagnostic>> = batch.par_iter().map(look).collect();
+            let seen: Vec<Result<Option<SceneView>, Diagnostic>> = batch.par_iter().map(look).collect();
             for view in seen {
                 match view {
-                    Ok(view) => self.scenes.add(view),
+                    Ok(view) => view.into_iter().for_each(|view| self.scenes.add(view)),
                     Err(error) => self.lose(&error)?,
                 }
             }
@@ -67,18 +69,16 @@ impl Gathering<'_> {
     }
 }
 
-fn look_at_line(perceiver: &Perceiver, line: &Line) -> Result<SceneView, Diagnostic> {
-    let text =
-        std::str::from_utf8(&line.bytes).map_err(|e| Diagnostic::at(line, e.valid_up_to(), None, "not UTF-8"))?;
-    let record = Record::parse(text)
-        .map_err(|e| Diagnostic::at(line, e.column().saturating_sub(1), None, format!("not a record: {e}")))?;
+/// A blank line shows nothing.
+fn look_at_line(perceiver: &Perceiver, line: &Line) -> Result<Option<SceneView>, Diagnostic> {
+    let Some(record) = cli::record_of(line, super::INTAKE)? else { return Ok(None) };
     let view = || -> Result<SceneView, StageError> {
         let (name, frame) = perceiver.frame_of(&record)?;
         let view = perceiver.look(&name, &frame)?;
         let said = record.get::<String>("scene")?;
         Ok(SceneView::new(said.unwrap_or_else(|| scene_of(&name).to_string()), name, &frame, view))
     };
-    view().map_err(|error| Diagnostic::at(line, error.offset.unwrap_or(0), record.id(), error.message))
+    view().map(Some).map_err(|error| Diagnostic::at(line, error.offset.unwrap_or(0), record.id(), error.message))
 }
 
 /// A log is one scene.

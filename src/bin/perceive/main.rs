@@ -46,6 +46,10 @@ struct Arguments {
     common: Common,
 }
 
+/// Frames come from a camera, never from text.
+const INTAKE: Intake =
+    Intake::Own("`perceive` reads a frame a line, which names its pictures and intrinsics, or a recording (--from)");
+
 impl Arguments {
     fn perceiver(&self) -> Result<Perceiver, Failure> {
         let failed = |error: &dyn std::fmt::Display| Failure::Failed(error.to_string());
@@ -84,9 +88,7 @@ impl Program for Arguments {
         let (perceiver, common) = (self.perceiver()?, &self.common);
         match FrameInput::open(&common.files, &self.log)? {
             input if self.fuse => fuse::run(common, input, &perceiver),
-            FrameInput::Lines(mut lines) => {
-                cli::run_filter_on(Self::NAME, common, &mut lines, Intake::Records, &perceiver)
-            }
+            FrameInput::Lines(mut lines) => cli::run_filter_on(Self::NAME, common, &mut lines, INTAKE, &perceiver),
             FrameInput::Logs(mut logs) => {
                 cli::run_frames(Self::NAME, common, logs.as_mut(), &perceiver, &|frame, record| {
                     perceiver.see(frame, record)

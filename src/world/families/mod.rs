@@ -30,6 +30,8 @@ mod vanity;
 use rand_chacha::ChaCha8Rng;
 
 pub use dice::Dice;
+pub(super) use finishes::gaudy;
+pub(super) use parts::sided;
 
 use super::Size;
 use super::camera::Frustum;

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Pose, vec2};
 use crate::world::camera::{Finish, Frustum, Texture};
-use crate::world::families::{Dice, Orientation, Piece};
+use crate::world::families::{Dice, Orientation, Piece, gaudy, sided};
 
 /// The category of such things; the detector has no name for them.
 const CLUTTER: &str = "clutter";
@@ -31,9 +31,8 @@ pub(super) fn on_furniture(dice: &mut Dice) -> Piece {
 }
 
 fn any_finish(dice: &mut Dice) -> Finish {
-    let color = [0; 3].map(|_: u8| dice.between(20.0, 235.0) as u8);
-    let texture = dice.pick(&[Texture::Plain, Texture::Cloth, Texture::Wood]);
-    Finish::new(color, texture)
+    let color = gaudy(dice).color;
+    Finish::new(color, dice.pick(&[Texture::Plain, Texture::Cloth, Texture::Wood]))
 }
 
 fn solid(below: (f64, f64), above: (f64, f64), z: (f64, f64), finish: Finish) -> Frustum {
@@ -41,9 +40,9 @@ fn solid(below: (f64, f64), above: (f64, f64), z: (f64, f64), finish: Finish) ->
     Frustum { bottom: outline(below), top: outline(above), low: z.0, high: z.1, finish }
 }
 
-fn ring(sides: usize, wide: f64) -> Vec<crate::geometry::Vec2> {
-    let turn = std::f64::consts::TAU / sides as f64;
-    (0..sides).map(|i| i as f64 * turn).map(|angle| vec2(angle.cos(), angle.sin()) * (wide / 2.0)).collect()
+/// A round body about the middle, of diameters `below` and `above`.
+fn round(sides: usize, below: f64, above: f64, z: (f64, f64), finish: Finish) -> Frustum {
+    sided(sides, vec2(0.0, 0.0), (below, below), (above, above), z, finish)
 }
 
 fn carton(dice: &mut Dice, side: (f64, f64), height: (f64, f64)) -> Vec<Frustum> {
@@ -54,8 +53,8 @@ fn carton(dice: &mut Dice, side: (f64, f64), height: (f64, f64)) -> Vec<Frustum>
 fn basket(dice: &mut Dice, wide: (f64, f64), height: (f64, f64)) -> Vec<Frustum> {
     let wide = dice.between(wide.0, wide.1);
     let finish = any_finish(dice);
-    let (bottom, top) = (ring(10, wide * dice.between(0.7, 1.0)), ring(10, wide));
-    vec![Frustum { bottom, top, low: 0.0, high: dice.between(height.0, height.1), finish }]
+    let below = wide * dice.between(0.7, 1.0);
+    vec![round(10, below, wide, (0.0, dice.between(height.0, height.1)), finish)]
 }
 
 /// A bag, a cushion, a heap of clothes: wide below, rounded off above.
@@ -72,21 +71,14 @@ fn plant(dice: &mut Dice, height: (f64, f64)) -> Vec<Frustum> {
     let pot = high * dice.between(0.2, 0.4);
     let wide = pot * dice.between(0.7, 1.1);
     let leaf = Finish::new([40, 70, 35].map(|c: u8| (f64::from(c) * dice.between(0.7, 1.6)) as u8), Texture::Cloth);
-    let round = |below: f64, above: f64, z: (f64, f64), finish| Frustum {
-        bottom: ring(8, below),
-        top: ring(8, above),
-        low: z.0,
-        high: z.1,
-        finish,
-    };
-    let mut parts = vec![round(0.75 * wide, wide, (0.0, pot), any_finish(dice))];
+    let mut parts = vec![round(8, 0.75 * wide, wide, (0.0, pot), any_finish(dice))];
     let (crown, low) = (wide * dice.between(0.8, 1.8), pot + (high - pot) * dice.between(0.0, 0.5));
-    parts.push(round(0.03, 0.03, (pot, low + 0.02), leaf));
+    parts.push(round(8, 0.03, 0.03, (pot, low + 0.02), leaf));
     let levels = dice.whole(1, 3);
     let step = (high - low) / levels as f64;
     for level in 0..levels {
         let (from, share) = (low + level as f64 * step, dice.between(0.5, 1.0));
-        parts.push(round(crown * share, crown * share * 0.5, (from, from + step), leaf));
+        parts.push(round(8, crown * share, crown * share * 0.5, (from, from + step), leaf));
     }
     parts
 }
