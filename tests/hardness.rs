@@ -172,7 +172,8 @@ fn a_closed_pipe_ends_each_quietly() {
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
         let mut child = start("evaluate", &arguments, Stdio::piped());
         drop(child.stdout.take());
-        assert_eq!(finish(child, "").0, Some(0), "{arguments:?}");
+        let (code, said) = finish(child, "");
+        assert_eq!(code, Some(0), "{arguments:?}: {said}");
     }
 }
 
