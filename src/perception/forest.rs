@@ -60,10 +60,15 @@ impl Forest {
     /// Probability of each class.
     pub fn probabilities(&self, features: &[f32]) -> Vec<f32> {
         let mut votes = vec![0_u32; self.classes];
-        for tree in &self.trees {
-            let leaf = tree.leaf(features) * self.classes;
+        let mut vote = |tree: &Tree, leaf: usize| {
+            let leaf = leaf * self.classes;
             votes.iter_mut().zip(&tree.leaves[leaf..leaf + self.classes]).for_each(|(v, f)| *v += u32::from(*f));
+        };
+        let (groups, rest) = self.trees.as_chunks();
+        for trees in groups {
+            trees.iter().zip(leaves(trees, features)).for_each(|(tree, leaf)| vote(tree, leaf));
         }
+        rest.iter().for_each(|tree| vote(tree, tree.leaf(features)));
         sharpened(&votes, self.trees.len(), self.sharpness)
     }
 
@@ -117,6 +122,26 @@ impl Forest {
         let trees = u16::from_le_bytes(take(bytes)?);
         let trees: Option<Vec<Tree>> = (0..trees).map(|_| Tree::read(bytes, classes)).collect();
         Some(Self { classes, sharpness, trees: trees? })
+    }
+}
+
+/// The leaf of each of a few trees. They are gone down side by side: one alone waits at every node for the last.
+fn leaves(trees: &[Tree; 8], features: &[f32]) -> [usize; 8] {
+    let mut at = [0; 8];
+    loop {
+        let mut deeper = false;
+        for (at, tree) in at.iter_mut().zip(trees) {
+            let node = tree.nodes[*at];
+            let is_inner = node.feature != LEAF;
+            // In a leaf there is no such feature, and what is reckoned goes unused.
+            let value = features.get(usize::from(node.feature)).copied().unwrap_or_default();
+            let next = usize::from(node.next) + usize::from(value >= node.threshold);
+            *at = if is_inner { next } else { *at };
+            deeper |= is_inner;
+        }
+        if !deeper {
+            return std::array::from_fn(|i| usize::from(trees[i].nodes[at[i]].next));
+        }
     }
 }
 
@@ -325,5 +350,23 @@ mod tests {
         let mut bytes = Vec::new();
         Forest::grow(&examples(), 2, GROWTH).write(&mut bytes);
         assert_eq!(Forest::read(&mut &bytes[..bytes.len() - 3]), None);
+    }
+
+    #[test]
+    fn trees_gone_down_side_by_side_end_in_the_leaves_they_end_in_alone() {
+        let example = |i: u32| {
+            let value = |k: u32| (i.wrapping_mul(k) >> 20) as f32 / 4096.0;
+            let features = vec![value(0x9E37_79B1), value(0x85EB_CA77), value(0xC2B2_AE35)];
+            Example { class: usize::from(features[0] > features[1]), features, weight: 1.0 }
+        };
+        let examples: Vec<Example> = (0..400).map(example).collect();
+        let forest = Forest::grow(&examples, 2, Growth { trees: 8, depth: 9, leaf: 2, seed: 5 });
+        let trees: &[Tree; 8] = forest.trees.first_chunk().expect("eight trees");
+        for example in &examples {
+            assert_eq!(
+                leaves(trees, &example.features),
+                [0, 1, 2, 3, 4, 5, 6, 7].map(|i| trees[i].leaf(&example.features))
+            );
+        }
     }
 }

@@ -137,11 +137,11 @@ impl Joining {
     pub fn bridge(&mut self, grid: &FloorGrid) {
         let whole: Vec<u32> =
             (0..self.patches.len() as u32).filter(|p| self.patches[*p as usize].sums.area() > LEAST_AREA_M2).collect();
-        let sample = |p: &u32| -> Vec<Vec2> {
+        let sample = |p: &u32| {
             let cells = &self.patches[*p as usize].cells;
-            cells.iter().step_by(1 + cells.len() / 40).map(|c| grid.centre(*c as usize)).collect()
+            Sample::of(cells.iter().step_by(1 + cells.len() / 40).map(|c| grid.centre(*c as usize)).collect())
         };
-        let samples: Vec<Vec<Vec2>> = whole.iter().map(sample).collect();
+        let samples: Vec<Sample> = whole.iter().map(sample).collect();
         let mut bridges = Vec::new();
         for i in 0..whole.len() {
             for j in i + 1..whole.len() {
@@ -250,10 +250,44 @@ fn contacts(grid: &FloorGrid, patches: &[Patch], patch_of: &[u32]) -> Vec<BTreeM
 }
 
 /// The gap between two pieces, when it is narrow.
-fn gap(grid: &FloorGrid, a: &[Vec2], b: &[Vec2]) -> Option<Contact> {
-    let pairs = a.iter().flat_map(|p| b.iter().map(move |q| (*p, *q)));
-    let (p, q) = pairs.min_by(|x, y| (x.0 - x.1).norm_squared().total_cmp(&(y.0 - y.1).norm_squared()))?;
+fn gap(grid: &FloorGrid, a: &Sample, b: &Sample) -> Option<Contact> {
+    if a.least_gap(b) > GAP_M {
+        return None;
+    }
+    let mut closest = (f64::INFINITY, Vec2::zeros(), Vec2::zeros());
+    for &p in &a.places {
+        for &q in &b.places {
+            let squared = (p - q).norm_squared();
+            if squared < closest.0 {
+                closest = (squared, p, q);
+            }
+        }
+    }
+    let (_, p, q) = closest;
     let gap = (p - q).norm();
+    if a.places.is_empty() || b.places.is_empty() || gap >= GAP_M {
+        return None;
+    }
     let hidden = (1..6).filter(|i| !grid.shows_floor(between(p, q, f64::from(*i) / 6.0))).count();
-    (gap < GAP_M).then_some(Contact { count: 0.0, steps: 0.0, gap, hidden: hidden as f64 / 5.0 })
+    Some(Contact { count: 0.0, steps: 0.0, gap, hidden: hidden as f64 / 5.0 })
+}
+
+/// Some places of a piece, and the rectangle round them along the axes.
+struct Sample {
+    places: Vec<Vec2>,
+    low: Vec2,
+    high: Vec2,
+}
+
+impl Sample {
+    fn of(places: Vec<Vec2>) -> Self {
+        let start = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
+        let (low, high) = places.iter().fold(start, |(low, high), place| (low.inf(place), high.sup(place)));
+        Self { places, low, high }
+    }
+
+    /// No two places of both are nearer than this, metres.
+    fn least_gap(&self, other: &Self) -> f64 {
+        (self.low - other.high).max().max((other.low - self.high).max())
+    }
 }

@@ -95,12 +95,14 @@ pub fn segment(
 pub fn group_pixels(grid: &FloorGrid, points: &Points, group_of: &[u32], groups: usize) -> Vec<Pixels> {
     let mut all = vec![Pixels::default(); groups];
     let last = [points.columns - 1, points.rows - 1];
-    for (at, cell) in grid.cell_of.iter().enumerate().filter(|(_, cell)| **cell != NOWHERE) {
-        let Some(pixels) = all.get_mut(group_of[*cell as usize] as usize) else { continue };
-        let (column, row) = (at % points.columns, at / points.columns);
-        let edges = [column < 2, column + 2 > last[0], row < 2, row + 2 > last[1]].map(u32::from);
-        let (c, r) = (column as u32, row as u32);
-        *pixels = pixels.joined(&Pixels { count: 1, at_edge: edges, bounds: [c, c, r, r] });
+    for (row, line) in grid.cell_of.chunks_exact(points.columns).enumerate() {
+        let [above, below] = [row < 2, row + 2 > last[1]].map(u32::from);
+        for (column, cell) in line.iter().enumerate().filter(|(_, cell)| **cell != NOWHERE) {
+            let Some(pixels) = all.get_mut(group_of[*cell as usize] as usize) else { continue };
+            let at_edge = [u32::from(column < 2), u32::from(column + 2 > last[0]), above, below];
+            let (c, r) = (column as u32, row as u32);
+            *pixels = pixels.joined(&Pixels { count: 1, at_edge, bounds: [c, c, r, r] });
+        }
     }
     all
 }
