@@ -4,7 +4,7 @@
 //! colour against the plate's does not. What an object is, is told by holding
 //! its size, height and colour against the usual ones of [`OBJECTS`].
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use super::ObjectSighting;
 use crate::frame::RgbdFrame;
@@ -34,15 +34,34 @@ const RECOGNISABLE: (usize, usize, f64) = (45, 3, 1.9);
 /// What fits no usual object better than this is not named for sure.
 const WORST_FIT: f64 = 14.0;
 
-/// The points of a row from one column on, with their columns and depths in metres.
-fn points_of_row(frame: &RgbdFrame, row: usize, columns: Range<usize>) -> impl Iterator<Item = (usize, [f64; 3], f64)> {
+/// The points of a row from one column on whose depths, in the sensor's units, lie in a range, with their columns and
+/// depths in metres.
+fn points_of_row(
+    frame: &RgbdFrame,
+    row: usize,
+    columns: Range<usize>,
+    depths: &RangeInclusive<u16>,
+) -> impl Iterator<Item = (usize, [f64; 3], f64)> {
     let (eye, first) = (frame.eye(), frame.ray(columns.start, row));
     let step = [0, 1, 2].map(|k| frame.world_from_camera[k][0] / frame.intrinsics.fx);
-    let depths = &frame.depth[row * frame.width..][columns.clone()];
-    columns.clone().zip(depths).filter(|(_, depth)| **depth > 0).map(move |(column, &depth)| {
+    let line = &frame.depth[row * frame.width..][columns.clone()];
+    columns.clone().zip(line).filter(|(_, depth)| depths.contains(depth)).map(move |(column, &depth)| {
         let (z, on) = (f64::from(depth) * frame.depth_unit_m, (column - columns.start) as f64);
         (column, [0, 1, 2].map(|k| eye[k] + (first[k] + on * step[k]) * z), z)
     })
+}
+
+/// Depths in the sensor's units, never 0, between which all points over a footprint lie: most pixels are elsewhere.
+fn depths_over(frame: &RgbdFrame, footprint: &Polygon, heights: Range<f64>) -> RangeInclusive<u16> {
+    // Poses written with few decimals turn and stretch a little.
+    const MARGIN_M: f64 = 0.1;
+    let (m, eye) = (&frame.world_from_camera, frame.eye());
+    let ahead = |x: f64, y: f64, z: f64| m[0][2] * (x - eye[0]) + m[1][2] * (y - eye[1]) + m[2][2] * (z - eye[2]);
+    let corners = footprint.corners().iter().flat_map(|c| [heights.start, heights.end].map(|z| ahead(c.x, c.y, z)));
+    let (near, far) = corners.fold((f64::INFINITY, 0.0_f64), |(near, far), z| (near.min(z), far.max(z)));
+    // Conversions to u16 saturate.
+    let units = |depth: f64| (depth / frame.depth_unit_m) as u16;
+    units(near - MARGIN_M).max(1)..=units(far + MARGIN_M)
 }
 
 /// One pixel that shows something on a plate.
@@ -81,7 +100,7 @@ fn may_hold_things(detection: &Detection) -> bool {
 fn on_top(frame: &RgbdFrame, detection: &Detection) -> Vec<ObjectSighting> {
     let footprint = Polygon::new(detection.footprint.iter().map(|&[x, y]| vec2(x, y)).collect());
     let Some(window) = window(frame, &footprint) else { return Vec::new() };
-    let points = points_over(frame, &Inside::of(&footprint), window);
+    let points = points_over(frame, &footprint, window);
     let Some(plate) = plate_height(&points) else { return Vec::new() };
     let spots = spots(frame, &points, plate);
     blobs(&spots, window).iter().filter_map(|blob| sighting(frame, blob)).collect()
@@ -106,17 +125,18 @@ fn window(frame: &RgbdFrame, footprint: &Polygon) -> Option<[usize; 4]> {
 /// The points in the window that lie over the footprint less its rim, with their pixels and depths.
 fn points_over(
     frame: &RgbdFrame,
-    inside: &Inside,
+    footprint: &Polygon,
     [left, top, right, low]: [usize; 4],
 ) -> Vec<(usize, usize, [f64; 3], f64)> {
     let heights = PLATE_M.0..PLATE_M.1 + TALLEST_M;
+    let (inside, depths) = (Inside::of(footprint), depths_over(frame, footprint, heights.clone()));
     let over = |(_, point, _): &(usize, [f64; 3], f64)| heights.contains(&point[2]) && inside.has(point[0], point[1]);
-    let row = |row: usize| {
-        points_of_row(frame, row, left..right)
-            .filter(over)
-            .map(move |(column, point, depth)| (column, row, point, depth))
-    };
-    (top..low).flat_map(row).collect()
+    let mut points = Vec::new();
+    for row in top..low {
+        let seen = points_of_row(frame, row, left..right, &depths).filter(over);
+        points.extend(seen.map(|(column, point, depth)| (column, row, point, depth)));
+    }
+    points
 }
 
 /// Where a point is within a convex outline by more than the rim: of each edge the direction inward and the distance.
@@ -153,8 +173,8 @@ fn plate_height(points: &[(usize, usize, [f64; 3], f64)]) -> Option<f64> {
     if heights.len() < 60 {
         return None;
     }
-    heights.sort_by(f64::total_cmp);
-    Some(heights[heights.len() / 2])
+    let middle = heights.len() / 2;
+    Some(*heights.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 /// The pixels that stand above the plate, or differ from it in colour.
@@ -175,14 +195,23 @@ fn spots(frame: &RgbdFrame, points: &[(usize, usize, [f64; 3], f64)], plate: f64
     points.iter().filter_map(spot).collect()
 }
 
+/// The median of each channel, by counting: there are only 256 values.
 fn median_color(colors: impl Iterator<Item = [u8; 3]>) -> Option<[u8; 3]> {
-    let colors: Vec<[u8; 3]> = colors.collect();
-    let median = |channel: usize| {
-        let mut values: Vec<u8> = colors.iter().map(|color| color[channel]).collect();
-        values.sort_unstable();
-        values.get(values.len() / 2).copied()
+    let (mut counts, mut all) = ([[0_usize; 256]; 3], 0);
+    for color in colors {
+        (0..3).for_each(|channel| counts[channel][usize::from(color[channel])] += 1);
+        all += 1;
+    }
+    let median = |counts: &[usize; 256]| {
+        let mut left = all / 2;
+        counts.iter().position(|&count| {
+            let within = left < count;
+            left = left.saturating_sub(count);
+            within
+        })
     };
-    Some([median(0)?, median(1)?, median(2)?])
+    let [red, green, blue] = counts.each_ref().map(median);
+    Some([red? as u8, green? as u8, blue? as u8])
 }
 
 /// Groups of spots that touch in the picture, over gaps of three pixels.
@@ -216,18 +245,19 @@ impl Free {
         let rows = self.spot_at.len() / self.width;
         let mut blob = Vec::new();
         let mut waiting = Vec::new();
-        let mut take = |at: usize, waiting: &mut Vec<u32>| {
-            let number = std::mem::replace(&mut self.spot_at[at], NO_SPOT);
-            waiting.extend((number != NO_SPOT).then_some(number));
+        let take = |at: &mut [u32], waiting: &mut Vec<u32>| {
+            for number in at.iter_mut().filter(|number| **number != NO_SPOT) {
+                waiting.push(std::mem::replace(number, NO_SPOT));
+            }
         };
-        take((start.row - top) * self.width + start.column - left, &mut waiting);
+        let first = (start.row - top) * self.width + start.column - left;
+        take(&mut self.spot_at[first..=first], &mut waiting);
         while let Some(spot) = waiting.pop().map(|number| spots[number as usize]) {
             blob.push(spot);
             let (column, row) = (spot.column - left, spot.row - top);
+            let columns = column.saturating_sub(GAP)..(column + GAP + 1).min(self.width);
             for row in row.saturating_sub(GAP)..=(row + GAP).min(rows - 1) {
-                for column in column.saturating_sub(GAP)..=(column + GAP).min(self.width - 1) {
-                    take(row * self.width + column, &mut waiting);
-                }
+                take(&mut self.spot_at[row * self.width..][columns.clone()], &mut waiting);
             }
         }
         blob
@@ -333,5 +363,20 @@ mod tests {
     #[test]
     fn nothing_is_seen_on_a_bed() {
         assert!(recognised("bed-1").is_empty());
+    }
+
+    #[test]
+    fn the_median_that_is_counted_is_the_one_that_is_sorted() {
+        for count in 1..40_u32 {
+            let colors =
+                (0..count).map(|i| [1, 3, 7].map(|k| (i.wrapping_mul(0x9E37_79B1).wrapping_mul(k) >> 24) as u8));
+            let sorted = [0, 1, 2].map(|channel| {
+                let mut values: Vec<u8> = colors.clone().map(|color| color[channel]).collect();
+                values.sort_unstable();
+                values[values.len() / 2]
+            });
+            assert_eq!(median_color(colors), Some(sorted));
+        }
+        assert_eq!(median_color(std::iter::empty()), None);
     }
 }

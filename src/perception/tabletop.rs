@@ -99,10 +99,10 @@ impl Patch {
         let mut places = Vec::with_capacity((right - left) * (below - above));
         let depths = points.rays.depths(top.corners(), DEPTH_MARGIN_M);
         for row in above..below {
-            for column in left..right {
-                if !depths.contains(&frame.depth[row * frame.width + column]) {
-                    places.push(None);
-                    continue;
+            let line = &frame.depth[row * frame.width..][left..right];
+            places.extend(line.iter().zip(left..).map(|(depth, column)| {
+                if !depths.contains(depth) {
+                    return None;
                 }
                 let over = points.rays.point(frame, column, row).filter(|[x, y, z]| {
                     let (dx, dy, up) = (x - px, y - py, z - top.height);
@@ -111,8 +111,8 @@ impl Patch {
                         && up > -0.04
                         && up < HIGHEST_M
                 });
-                places.push(over.map(|[x, y, z]| [x, y, z - top.height]));
-            }
+                over.map(|[x, y, z]| [x, y, z - top.height])
+            }));
         }
         let mut patch = Self { window, is_thing: vec![false; places.len()], points: places, color: [0.0; 3] };
         patch.tell_apart(frame);
@@ -143,10 +143,12 @@ impl Patch {
         self.color = [0, 1, 2].map(|c| middle(flat.iter().map(|color| color[c]).collect()));
         let usual = middle(flat.iter().map(|color| contrast(*color, self.color)).collect());
         let least = LEAST_CONTRAST.max(3.5 * usual);
-        for at in 0..self.points.len() {
-            let Some([x, y, up]) = self.points[at] else { continue };
+        let [left, right, above, below] = self.window;
+        let lines = (above..below).map(|row| &frame.color[row * frame.width..][left..right]);
+        for ((point, is_thing), color) in self.points.iter().zip(&mut self.is_thing).zip(lines.flatten()) {
+            let Some([x, y, up]) = point else { continue };
             let noise = 0.014 + 0.0045 * (x * x + y * y);
-            self.is_thing[at] = up > noise || contrast(self.color_at(frame, at), self.color) > least;
+            *is_thing = *up > noise || contrast(color.map(|c| f32::from(c) / 255.0), self.color) > least;
         }
     }
 
