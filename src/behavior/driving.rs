@@ -244,9 +244,10 @@ fn free_inside<'a>(grid: &'a ClearanceGrid, outline: &'a Polygon) -> impl Iterat
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::behavior::Silent;
+    use crate::behavior::{Beliefs, Silent};
     use crate::geometry::vec2;
     use crate::perception::{Eyes, View};
+    use crate::record::Detection;
     use crate::robot::simulated::{Obstacles, SimulatedBase};
     use crate::world::{Noise, RoomMap, Scene};
 
@@ -287,6 +288,34 @@ mod tests {
         let hallway = map.room("hallway").expect("a hallway").polygon();
         assert_eq!(pilot.go_into(&hallway, "hallway"), Ok(()));
         assert!(hallway.contains(pilot.pose().position()), "{:?}", pilot.pose());
+    }
+
+    /// Goes through a gap between the living room's west wall and a row of furniture that is believed to stand there.
+    fn passes(gap_m: f64, is_bold: bool) -> bool {
+        let map = RoomMap::apartment();
+        let west = map.room("living_room").expect("a living room").polygon().bounds().0.x;
+        let from = west + gap_m;
+        let row = serde_json::json!({
+            "category": "shelf", "confidence": 1.0, "x": (from + 9.0) / 2.0, "y": 3.25, "yaw": null,
+            "length": 9.0 - from, "width": 0.5, "height": 1.0,
+            "why": "", "footprint": [[from, 3.0], [9.0, 3.0], [9.0, 3.5], [from, 3.5]],
+        });
+        let row: Detection = serde_json::from_value(row).expect("a detection");
+        let scene = Scene { furniture: Vec::new(), objects: Vec::new(), ..Scene::apartment() };
+        let mut base = SimulatedBase::new(Obstacles::new(&map, &scene), Pose::new(west + 1.5, 2.2, 1.57));
+        let (mut eyes, mut watcher) = (Shut, Silent);
+        let mut pilot = Pilot::new(&map, &mut base, &mut eyes, &mut watcher, 300.0, false);
+        // Seen too often to be doubted by eyes that are shut.
+        pilot.beliefs = Beliefs::of(vec![row; 99]);
+        pilot.be_bold(is_bold);
+        pilot.go_to(vec2(west + 1.5, 4.6)).is_ok() && pilot.pose().y > 4.0
+    }
+
+    #[test]
+    fn a_gap_in_which_the_robot_could_not_turn_is_passed_by_the_bold_only() {
+        assert!(passes(1.0, false));
+        assert!(!passes(0.78, false) && passes(0.78, true));
+        assert!(!passes(0.6, true));
     }
 
     #[test]

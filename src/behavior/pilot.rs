@@ -55,7 +55,7 @@ pub struct Pilot<'a> {
     pub(super) grid: ClearanceGrid,
     /// Outlines of all furniture seen, which the sonars may hear instead of a wall.
     outlines: Vec<Polygon>,
-    /// Whether outlines are taken at their word: nothing is thought to reach beyond them.
+    /// Whether outlines are taken at their word, nothing being thought to reach beyond them, and narrow gaps are passed.
     pub(super) is_bold: bool,
     time_limit_s: f64,
     view: View,
@@ -184,9 +184,9 @@ impl<'a> Pilot<'a> {
         })
     }
 
-    /// From now on takes outlines at their word, where the margins about them leave no way.
-    pub fn be_bold(&mut self) {
-        self.is_bold = true;
+    /// From now on takes outlines at their word, and passes narrower gaps; or no longer does.
+    pub fn be_bold(&mut self, is_bold: bool) {
+        self.is_bold = is_bold;
         self.rebuild_grid();
     }
 

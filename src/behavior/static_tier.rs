@@ -34,6 +34,7 @@ impl Executive<'_> {
     /// The static tier. `Ok` says at what the object was found, `Err` why it was not.
     pub(super) fn search(&mut self, task: &Task, room: &RoomFrame) -> Result<Result<String, String>, Halt> {
         self.pilot.begin("search");
+        self.pilot.be_bold(false);
         let arrived = self.pilot.pose();
         self.pilot.sweep(SWEEP_RAD)?;
         self.look_further(task, room, arrived)?;
@@ -52,8 +53,10 @@ impl Executive<'_> {
                 }
             }
         }
-        self.pilot.because("a look may have missed it; looking at everything once more, from other sides");
-        self.pilot.be_bold();
+        self.pilot.because(
+            "a look may have missed it; looking at everything once more, from other sides and through narrower gaps",
+        );
+        self.pilot.be_bold(true);
         self.pilot.beliefs.search_anew();
         if let Some(found) = self.try_all(task, room, arrived)? {
             return Ok(Ok(found));
