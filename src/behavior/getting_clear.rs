@@ -16,8 +16,8 @@ const TURNING_M: f64 = p3dx::SWING_M + 0.03;
 const CREEP_M_S: f64 = 0.1;
 /// How far the robot backs off from what it touched, metres.
 const BACK_OFF_M: f64 = 0.25;
-/// How far it creeps to make room for a turn, metres.
-const MAKE_ROOM_M: f64 = 0.6;
+/// How far it creeps to make room for a turn: past a bed that stands abreast, metres.
+const MAKE_ROOM_M: f64 = 1.5;
 /// What is heard so little ahead or behind stands abreast, metres.
 const ABREAST_M: f64 = 0.1;
 

@@ -8,7 +8,7 @@ use spatial_fetch::evaluation::behavior::{Selection, Source, Study, behavior_tab
 use spatial_fetch::trial::{Home, NoiseLevel, Settings};
 use spatial_fetch::world::Scene;
 
-use crate::Command;
+use crate::{Reads, Subcommand};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -37,27 +37,19 @@ pub struct Arguments {
     /// Say of each instruction whose first furniture was wrong whether the words allow it
     #[arg(long)]
     explain: bool,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
+impl Subcommand for Arguments {
+    const READS: Reads = Reads::Options;
 
-    fn reads_files(&self) -> bool {
-        false
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
         let gold = cli::load_gold(self.gold.as_deref())?;
         let homes = self.homes()?;
         let instructions = instructions(&gold, &homes[0].1.map, self.instructions, self.select);
         if instructions.is_empty() {
             return Err(Failure::Failed("no description says what it means; --gold needs labels".to_string()));
         }
-        let seed = self.common.seed;
+        let seed = common.seed;
         let study = Study {
             instructions,
             conditions: conditions(&homes, self.ablations),
@@ -67,8 +59,8 @@ impl Command for Arguments {
             explained: self.explain,
         };
         let source = self.source();
-        let report = cli::counted_on_threads(&self.common, study.trials(), |done| study.run(&source, done))?;
-        cli::write_report(&self.common, &report, || behavior_tables(&report))?;
+        let report = cli::counted_on_threads(common, study.trials(), |done| study.run(&source, done))?;
+        cli::write_report(common, &report, || behavior_tables(&report))?;
         Ok(Exit::Done)
     }
 }

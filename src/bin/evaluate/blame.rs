@@ -7,7 +7,7 @@ use spatial_fetch::cli::{self, Common, Exit, Failure, HomeArguments};
 use spatial_fetch::evaluation::{Measure, Wanted, blame, blame_text};
 use spatial_fetch::trial::{Perception, Settings};
 
-use crate::Command;
+use crate::{Reads, Subcommand};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -28,25 +28,17 @@ pub struct Arguments {
     /// What the robot's eyes report
     #[arg(long, value_enum, default_value = "truth")]
     perception: Perception,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
+impl Subcommand for Arguments {
+    const READS: Reads = Reads::Options;
 
-    fn reads_files(&self) -> bool {
-        false
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
         let gold = cli::load_gold_with(self.gold.as_deref(), self.meanings.as_deref())?;
         let home = self.home.load()?;
-        let settings = Settings { perception: self.perception, seed: self.common.seed, ..Settings::default() };
-        let blames = cli::on_threads(self.common.jobs, || blame(&gold, &home, &settings, self.measure, self.wanted))?;
-        cli::write_report(&self.common, &blames, || blame_text(&blames))?;
+        let settings = Settings { perception: self.perception, seed: common.seed, ..Settings::default() };
+        let blames = cli::on_threads(common.jobs, || blame(&gold, &home, &settings, self.measure, self.wanted))?;
+        cli::write_report(common, &blames, || blame_text(&blames))?;
         Ok(Exit::Done)
     }
 }

@@ -4,7 +4,7 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure};
 use spatial_fetch::evaluation::{Comparison, Measure, compare, comparison_text};
 
-use crate::Command;
+use crate::Subcommand;
 
 #[derive(Args)]
 #[command(override_usage = "evaluate compare [OPTIONS] A B")]
@@ -18,17 +18,11 @@ pub struct Arguments {
     /// Count reasons, scores and measurements as changes too
     #[arg(long)]
     every_field: bool,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
-        let [first, second] = self.common.files.as_slice() else {
+impl Subcommand for Arguments {
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
+        let [first, second] = common.files.as_slice() else {
             return Err(Failure::Usage("compare takes two result files: evaluate compare A B".to_string()));
         };
         let read = |path| cli::read_lines(std::slice::from_ref(path));
@@ -36,13 +30,13 @@ impl Command for Arguments {
         let (a_name, b_name) = (first.display().to_string(), second.display().to_string());
         let comparison = compare((&a_name, &a), (&b_name, &b), self.measure, self.every_field)
             .map_err(|error| Failure::Failed(error.to_string()))?;
-        self.report(&comparison)
+        self.report(common, &comparison)
     }
 }
 
 impl Arguments {
-    fn report(&self, comparison: &Comparison) -> Result<Exit, Failure> {
-        cli::write_report(&self.common, comparison, || comparison_text(comparison))?;
+    fn report(&self, common: &Common, comparison: &Comparison) -> Result<Exit, Failure> {
+        cli::write_report(common, comparison, || comparison_text(comparison))?;
         if self.fail_on_regression && comparison.regressed() {
             let (broken, missing) = (comparison.broken.len(), comparison.missing.len());
             return Err(Failure::Failed(format!("{broken} records broken, {missing} missing")));

@@ -8,7 +8,7 @@ use spatial_fetch::cli::{Common, Exit, Failure, Progress};
 use spatial_fetch::evaluation::write_training_frame;
 use spatial_fetch::files::write_file;
 
-use crate::Command;
+use crate::{Reads, Subcommand};
 
 /// Frames of rooms furnished at random, seen by a simulated Kinect: colour, depth, mask, and
 /// `index.jsonl` with the truth, which is also what `perceive` reads. `--output` names the folder.
@@ -17,34 +17,26 @@ pub struct Arguments {
     /// How many
     #[arg(long, value_name = "N", default_value_t = 100)]
     count: u64,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
+impl Subcommand for Arguments {
+    const READS: Reads = Reads::Options;
 
-    fn reads_files(&self) -> bool {
-        false
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
-        let folder = self.common.output.as_deref().unwrap_or(Path::new("frames"));
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
+        let folder = common.output.as_deref().unwrap_or(Path::new("frames"));
         let failed = |error: std::io::Error| Failure::Failed(format!("{}: {error}", folder.display()));
         std::fs::create_dir_all(folder).map_err(failed)?;
-        let mut progress = Progress::new(&self.common, Some(self.count));
+        let mut progress = Progress::new(common, Some(self.count));
         let mut index = String::new();
         for first in (0..self.count).step_by(64) {
             let numbers: Vec<u64> = (first..self.count.min(first + 64)).collect();
-            let write = |&number: &u64| write_training_frame(folder, self.common.seed, number, self.common.force);
+            let write = |&number: &u64| write_training_frame(folder, common.seed, number, common.force);
             let lines: Result<Vec<String>, _> = numbers.par_iter().map(write).collect();
             let lines = lines.map_err(|error| Failure::Failed(error.to_string()))?;
             progress.add(lines.len() as u64);
             lines.iter().for_each(|line| index.extend([line.as_str(), "\n"]));
         }
-        write_file(&folder.join("index.jsonl"), index.as_bytes(), self.common.force)
+        write_file(&folder.join("index.jsonl"), index.as_bytes(), common.force)
             .map_err(|error| Failure::Failed(error.to_string()))?;
         Ok(Exit::Done)
     }

@@ -7,7 +7,7 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure};
 use spatial_fetch::evaluation::{Experiment, evaluate_grounding, grounding_table};
 
-use crate::Command;
+use crate::Subcommand;
 
 /// FILEs are gold corpora; without one, the shipped templates and speech.
 #[derive(Args)]
@@ -24,8 +24,6 @@ pub struct Arguments {
     /// List every disagreement in the text table
     #[arg(long)]
     list: bool,
-    #[command(flatten)]
-    common: Common,
 }
 
 fn share(text: &str) -> Result<f64, String> {
@@ -33,23 +31,19 @@ fn share(text: &str) -> Result<f64, String> {
     if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a share lies from 0 to 1".to_string()) }
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
-        let mut corpora = cli::load_corpora(&self.common.files)?;
+impl Subcommand for Arguments {
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
+        let mut corpora = cli::load_corpora(&common.files)?;
         if let Some(path) = &self.texts {
             let texts = cli::load_corpora(std::slice::from_ref(path))?;
             let texts: HashMap<_, _> = texts.into_iter().flat_map(|(_, gold)| gold).map(|g| (g.id, g.text)).collect();
             let bare = corpora.iter_mut().flat_map(|(_, gold)| gold).filter(|gold| gold.text.is_empty());
             bare.for_each(|gold| gold.text = texts.get(&gold.id).cloned().unwrap_or_default());
         }
-        let experiment = Experiment { splits: self.splits, noise: self.noise, seed: self.common.seed };
+        let experiment = Experiment { splits: self.splits, noise: self.noise, seed: common.seed };
         let scores = corpora.iter().map(|(name, gold)| evaluate_grounding(name, gold, &experiment));
         let scores: Vec<_> = scores.collect::<Result<_, _>>().map_err(Failure::Failed)?;
         let table = || scores.iter().map(|s| grounding_table(s, self.list)).collect::<Vec<_>>().join("\n\n");
-        cli::write_report(&self.common, &scores, table).map(|()| Exit::Done)
+        cli::write_report(common, &scores, table).map(|()| Exit::Done)
     }
 }

@@ -6,7 +6,7 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure};
 use spatial_fetch::evaluation::import;
 
-use crate::Command;
+use crate::Subcommand;
 
 /// FILE is a treebank in XML with `S` or `Note` items. What was odd about the files is told on standard error.
 #[derive(Args)]
@@ -17,28 +17,22 @@ pub struct Arguments {
     /// What the ids of the descriptions begin with
     #[arg(long, value_name = "WORD", default_value = "s")]
     prefix: String,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
-        let [treebank] = self.common.files.as_slice() else {
+impl Subcommand for Arguments {
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
+        let [treebank] = common.files.as_slice() else {
             return Err(Failure::Usage("name one treebank file, as in `evaluate import treebank.xml`".to_string()));
         };
         let imported = import(treebank, self.groundings.as_deref(), &self.prefix);
         let imported = imported.map_err(|error| Failure::Failed(error.to_string()))?;
-        let sink = cli::open_output(&self.common)?;
+        let sink = cli::open_output(common)?;
         for line in &imported.lines {
             sink.write(format!("{line}\n").as_bytes())?;
         }
         sink.finish()?;
         let lossless = imported.remarks.iter().all(|remark| remark.contains("slip of the numbering"));
-        if !self.common.quiet {
+        if !common.quiet {
             imported.remarks.iter().for_each(|remark| eprintln!("evaluate: {remark}"));
         }
         Ok(if lossless { Exit::Done } else { Exit::Lost })

@@ -19,7 +19,7 @@ mod what_if;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Program};
 use spatial_fetch::evaluation::Scores;
 use spatial_fetch::files::refuse_existing;
@@ -36,60 +36,96 @@ struct Arguments {
     what: What,
 }
 
-#[derive(Subcommand)]
+#[derive(clap::Subcommand)]
 enum What {
     /// Score records from files or standard input
-    Score(score::Arguments),
+    Score(With<score::Arguments>),
     /// Chunk corpora and score the trees
-    Chunking(chunking::Arguments),
+    Chunking(With<chunking::Arguments>),
     /// Ground corpora by both methods and score the meanings
-    Grounding(grounding::Arguments),
+    Grounding(With<grounding::Arguments>),
     /// Read the authors' public treebank and groundings into this project's format
-    Import(import::Arguments),
+    Import(With<import::Arguments>),
     /// Run a corpus end to end, from text to trial, and score it
-    Run(run::Arguments),
+    Run(With<run::Arguments>),
     /// Run the paper's three experiments: its figures beside ours
-    Paper(paper::Arguments),
+    Paper(With<paper::Arguments>),
     /// Charge each failed trial to the stage whose gold mends it
-    Blame(blame::Arguments),
+    Blame(With<blame::Arguments>),
     /// Compare two result files: fixed, broken, changed
-    Compare(compare::Arguments),
+    Compare(With<compare::Arguments>),
     /// Find the smallest changes of words and furniture that change the outcome
     #[command(name = "what-if")]
-    Counterfactual(what_if::Arguments),
+    Counterfactual(With<what_if::Arguments>),
     /// Add up the scores of the parts of a run
-    Merge(merge::Arguments),
+    Merge(With<merge::Arguments>),
     /// Moved furniture, other homes, and homes made for gold groundings
-    Robustness(robustness::Arguments),
+    Robustness(With<robustness::Arguments>),
     /// Make one scene: furniture placed anew, or a whole new home
-    Scene(scene::Arguments),
+    Scene(With<scene::Arguments>),
     /// Render frames of rooms furnished at random, with the truth, to train and test perception on
-    Frames(frames::Arguments),
+    Frames(With<frames::Arguments>),
     /// Score detections against frames whose furniture is known
-    Perception(perception::Arguments),
+    Perception(With<perception::Arguments>),
     /// Learn the furniture detector from such rooms
-    Train(train::Arguments),
+    Train(With<train::Arguments>),
     /// Drive a corpus many times over: the paper's Tables II and III, ablations, and why it went wrong
-    Behavior(behavior::Arguments),
+    Behavior(With<behavior::Arguments>),
 }
 
-/// What every subcommand can do.
-trait Command {
-    /// The shared options.
-    fn common(&self) -> &Common;
+/// What a subcommand reads.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Reads {
+    /// Only what its options name.
+    Options,
+    /// The files named.
+    Files,
+    /// The same, or standard input when no file is named.
+    FilesOrStandardInput,
+}
 
-    /// Whether it reads the files named.
-    fn reads_files(&self) -> bool {
-        true
-    }
+/// A subcommand, by its own options.
+trait Subcommand: clap::Args {
+    /// What it reads.
+    const READS: Reads = Reads::Files;
 
-    /// Whether it waits for standard input when no file is named.
-    fn reads_standard_input(&self) -> bool {
-        false
+    /// The same, with these options.
+    fn reads(&self) -> Reads {
+        Self::READS
     }
 
     /// Does the work.
+    fn run(&self, common: &Common) -> Result<Exit, Failure>;
+}
+
+/// A subcommand's own options and those that all share.
+#[derive(clap::Args)]
+struct With<A: Subcommand> {
+    #[command(flatten)]
+    own: A,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// A subcommand with all its options.
+trait Command {
+    fn common(&self) -> &Common;
+    fn reads(&self) -> Reads;
     fn run(&self) -> Result<Exit, Failure>;
+}
+
+impl<A: Subcommand> Command for With<A> {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn reads(&self) -> Reads {
+        self.own.reads()
+    }
+
+    fn run(&self) -> Result<Exit, Failure> {
+        self.own.run(&self.common)
+    }
 }
 
 impl Arguments {
@@ -124,11 +160,11 @@ impl Program for Arguments {
         schemars::schema_for!(Scores)
     }
     fn reads_standard_input(&self) -> bool {
-        self.command().reads_standard_input() && self.common().files.is_empty()
+        self.command().reads() == Reads::FilesOrStandardInput && self.common().files.is_empty()
     }
     fn run(self) -> Result<Exit, Failure> {
         let (command, common) = (self.command(), self.common());
-        if let Some(file) = common.files.first().filter(|_| !command.reads_files()) {
+        if let Some(file) = common.files.first().filter(|_| command.reads() == Reads::Options) {
             let message = format!(
                 "{}: this subcommand takes no FILE; what it reads is named by options, as --gold",
                 file.display()

@@ -6,28 +6,20 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Table};
 use spatial_fetch::evaluation::{Scores, merge_scores};
 
-use crate::Command;
+use crate::{Reads, Subcommand};
 
 #[derive(Args)]
 pub struct Arguments {
     /// Gold descriptions of the whole run: the run fails unless the parts score just as many
     #[arg(long, value_name = "FILE")]
     gold: Option<PathBuf>,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
+impl Subcommand for Arguments {
+    const READS: Reads = Reads::FilesOrStandardInput;
 
-    fn reads_standard_input(&self) -> bool {
-        true
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
-        let lines = cli::read_lines(&self.common.files)?;
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
+        let lines = cli::read_lines(&common.files)?;
         let parse = |(i, line): (usize, &String)| -> Result<Scores, Failure> {
             let wrong = |error| Failure::Failed(format!("part {}: no scores of `evaluate score` ({error})", i + 1));
             serde_json::from_str(line).map_err(wrong)
@@ -42,6 +34,6 @@ impl Command for Arguments {
             }
         }
         let title = format!("{} descriptions in {} parts", scores.all.descriptions, parts.len());
-        cli::write_scores(&self.common, &Table { title, scores })
+        cli::write_scores(common, &Table { title, scores })
     }
 }

@@ -9,7 +9,7 @@ use spatial_fetch::files::refuse_existing;
 use spatial_fetch::trial::{Home, Perception, Settings};
 use spatial_fetch::world::{RoomMap, Scene};
 
-use crate::Command;
+use crate::{Reads, Subcommand};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -28,45 +28,37 @@ pub struct Arguments {
     /// Write index.html into this folder: the tables, and every trial with way, picture and tree
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
+impl Subcommand for Arguments {
+    const READS: Reads = Reads::Options;
 
-    fn reads_files(&self) -> bool {
-        false
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
         if let Some(folder) = &self.report {
-            refuse_existing(&folder.join("index.html"), self.common.force)?;
+            refuse_existing(&folder.join("index.html"), common.force)?;
         }
         let gold = cli::load_gold(self.gold.as_deref())?;
         let corpus = self.gold.as_ref().map_or("own templates".to_string(), |path| path.display().to_string());
         let homes =
             [Scene::apartment(), Scene::apartment_modified()].map(|scene| Home::new(RoomMap::apartment(), scene));
-        let settings = Settings { perception: self.perception, seed: self.common.seed, ..Settings::default() };
+        let settings = Settings { perception: self.perception, seed: common.seed, ..Settings::default() };
         let experiments = Experiments { corpus, gold: &gold, homes: &homes, settings, seeds: self.seeds };
-        let result = cli::counted_on_threads(&self.common, experiments.trials(), |done| experiments.run(done))?;
+        let result = cli::counted_on_threads(common, experiments.trials(), |done| experiments.run(done))?;
         if let Some(folder) = &self.report {
-            let write = || write_report(folder, &result, &experiments.cases(), &homes, self.common.force);
-            let path = cli::on_threads(self.common.jobs, write)??;
-            Reporter::new("evaluate", &self.common).remark(&format!("the report is {}", path.display()));
+            let write = || write_report(folder, &result, &experiments.cases(), &homes, common.force);
+            let path = cli::on_threads(common.jobs, write)??;
+            Reporter::new("evaluate", common).remark(&format!("the report is {}", path.display()));
         }
-        self.write(&result)
+        self.write(common, &result)
     }
 }
 
 impl Arguments {
-    fn write(&self, result: &Paper) -> Result<Exit, Failure> {
+    fn write(&self, common: &Common, result: &Paper) -> Result<Exit, Failure> {
         if self.csv {
-            cli::write_text(&self.common, &paper_csv(result))?;
+            cli::write_text(common, &paper_csv(result))?;
         } else {
-            cli::write_report(&self.common, result, || paper_text(result))?;
+            cli::write_report(common, result, || paper_text(result))?;
         }
         Ok(Exit::Done)
     }

@@ -6,7 +6,7 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Format};
 use spatial_fetch::evaluation::{furniture_tables, gold_frames, score_furniture};
 
-use crate::Command;
+use crate::{Reads, Subcommand};
 
 /// Scores the detections of records (as `perceive` writes them) against the frames' `items`:
 /// found, right among six kinds, right name, errors of place and heading, and what is not there.
@@ -18,30 +18,22 @@ pub struct Arguments {
     /// Score only frames of this `subset`
     #[arg(long, value_name = "NAME")]
     subset: Option<String>,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
+impl Subcommand for Arguments {
+    const READS: Reads = Reads::FilesOrStandardInput;
 
-    fn reads_standard_input(&self) -> bool {
-        true
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
         let gold = cli::read_lines(std::slice::from_ref(&self.gold))?;
-        let records = cli::read_lines(&self.common.files)?;
+        let records = cli::read_lines(&common.files)?;
         let frames = gold_frames(&gold, &records, self.subset.as_deref()).map_err(Failure::Failed)?;
         let scores = score_furniture(&frames);
         let title = format!("{} frames of {}", frames.len(), self.gold.display());
-        let text = match self.common.format {
+        let text = match common.format {
             Format::Text => furniture_tables(&title, &scores),
             Format::Json => serde_json::to_string(&scores).map_err(|e| Failure::Failed(e.to_string()))?,
         };
-        let sink = cli::open_output(&self.common)?;
+        let sink = cli::open_output(common)?;
         sink.write(format!("{text}\n").as_bytes())?;
         sink.finish()?;
         Ok(Exit::Done)

@@ -11,7 +11,7 @@ use spatial_fetch::evaluation::robustness::{
 use spatial_fetch::trial::{Home, Settings};
 use spatial_fetch::world::arrange::Relations;
 
-use crate::Command;
+use crate::{Reads, Subcommand};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -44,30 +44,22 @@ pub struct Arguments {
     no_glance: bool,
     #[command(flatten)]
     eyes: EyeArguments,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
+impl Subcommand for Arguments {
+    const READS: Reads = Reads::Options;
 
-    fn reads_files(&self) -> bool {
-        false
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
         let total = self.total()?;
-        let robustness = cli::counted_on_threads(&self.common, total, |done| self.measure(done))??;
-        cli::write_robustness(&self.common, &robustness)
+        let robustness = cli::counted_on_threads(common, total, |done| self.measure(common, done))??;
+        cli::write_robustness(common, &robustness)
     }
 }
 
 impl Arguments {
-    fn measure(&self, done: &(dyn Fn() + Sync)) -> Result<Robustness, Failure> {
+    fn measure(&self, common: &Common, done: &(dyn Fn() + Sync)) -> Result<Robustness, Failure> {
         let options = Options { no_glance: self.no_glance, ..Options::default() };
-        let settings = Settings { options, seed: self.common.seed, ..self.eyes.settings() };
+        let settings = Settings { options, seed: common.seed, ..self.eyes.settings() };
         let experiment = Experiment { settings, seeds: self.seeds, done };
         let corpus = cli::load_gold(self.corpus.as_deref())?;
         let home = Home::load(None, self.world.as_deref()).map_err(failed)?;

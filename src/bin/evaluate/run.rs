@@ -8,7 +8,7 @@ use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, HomeArgument
 use spatial_fetch::evaluation::{run_corpus, score};
 use spatial_fetch::trial::Settings;
 
-use crate::Command;
+use crate::{Reads, Subcommand};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -22,27 +22,19 @@ pub struct Arguments {
     blind: bool,
     #[command(flatten)]
     eyes: EyeArguments,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
+impl Subcommand for Arguments {
+    const READS: Reads = Reads::Options;
 
-    fn reads_files(&self) -> bool {
-        false
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
         let gold = cli::load_gold(self.gold.as_deref())?;
         let home = self.home.load()?;
         let options = Options { blind: self.blind, ..Options::default() };
-        let settings = Settings { options, seed: self.common.seed, ..self.eyes.settings() };
+        let settings = Settings { options, seed: common.seed, ..self.eyes.settings() };
         let lines = run_corpus(&gold, &home, &settings);
         let scores = score(&gold, &lines).map_err(Failure::Failed)?;
         let title = format!("{} descriptions, {} records", gold.len(), lines.len());
-        cli::write_scores(&self.common, &Table { title, scores })
+        cli::write_scores(common, &Table { title, scores })
     }
 }

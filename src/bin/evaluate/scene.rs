@@ -8,7 +8,7 @@ use spatial_fetch::trial::Home;
 use spatial_fetch::world::arrange::{Dice, Relations, new_home, rearranged};
 use spatial_fetch::world::world_json;
 
-use crate::Command;
+use crate::{Reads, Subcommand};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -24,41 +24,33 @@ pub struct Arguments {
     /// The home whose furniture is placed anew: a scene file, or a shipped home by its name [default: apartment]
     #[arg(long, value_name = "WORLD", conflicts_with = "new")]
     world: Option<PathBuf>,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
+impl Subcommand for Arguments {
+    const READS: Reads = Reads::Options;
 
-    fn reads_files(&self) -> bool {
-        false
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
-        let mut dice = Dice::new(self.common.seed, 0);
-        let home = if self.new { self.new_home(&mut dice) } else { self.rearranged(&mut dice) }?;
-        cli::write_text(&self.common, &world_json(&home.map, &home.scene))?;
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
+        let mut dice = Dice::new(common.seed, 0);
+        let home = if self.new { self.new_home(common, &mut dice) } else { self.rearranged(common, &mut dice) }?;
+        cli::write_text(common, &world_json(&home.map, &home.scene))?;
         Ok(Exit::Done)
     }
 }
 
 impl Arguments {
-    fn new_home(&self, dice: &mut Dice) -> Result<Home, Failure> {
-        let made = new_home(&format!("home-{}", self.common.seed), dice);
+    fn new_home(&self, common: &Common, dice: &mut Dice) -> Result<Home, Failure> {
+        let made = new_home(&format!("home-{}", common.seed), dice);
         let (map, scene) = made.ok_or_else(|| none("no home that leaves the robot a way was found"))?;
         Ok(Home::new(map, scene))
     }
 
-    fn rearranged(&self, dice: &mut Dice) -> Result<Home, Failure> {
+    fn rearranged(&self, common: &Common, dice: &mut Dice) -> Result<Home, Failure> {
         let home = Home::load(None, self.world.as_deref()).map_err(|error| Failure::Failed(error.to_string()))?;
         let relations = if self.r#break { Relations::Broken } else { Relations::Kept };
         let scene = rearranged(&home.map, &home.scene, relations, dice);
         let mut scene = scene.ok_or_else(|| none("no placement that leaves the robot a way was found"))?;
         let kind = if self.r#break { "broken" } else { "kept" };
-        scene.name = format!("{}-{kind}-{}", home.scene.name, self.common.seed);
+        scene.name = format!("{}-{kind}-{}", home.scene.name, common.seed);
         Ok(Home::new(home.map, scene))
     }
 }

@@ -6,7 +6,7 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Table};
 use spatial_fetch::evaluation::{only_with_records, score};
 
-use crate::Command;
+use crate::{Reads, Subcommand};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -16,27 +16,19 @@ pub struct Arguments {
     /// These are a part of a run: leave out descriptions without a record, and add the parts up with `merge`
     #[arg(long)]
     part: bool,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
+impl Subcommand for Arguments {
+    const READS: Reads = Reads::FilesOrStandardInput;
 
-    fn reads_standard_input(&self) -> bool {
-        true
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
         let mut gold = cli::load_gold(self.gold.as_deref())?;
-        let lines = cli::read_lines(&self.common.files)?;
+        let lines = cli::read_lines(&common.files)?;
         if self.part {
             gold = only_with_records(gold, &lines);
         }
         let scores = score(&gold, &lines).map_err(Failure::Failed)?;
         let title = format!("{} descriptions, {} records", gold.len(), lines.len());
-        cli::write_scores(&self.common, &Table { title, scores })
+        cli::write_scores(common, &Table { title, scores })
     }
 }

@@ -7,7 +7,7 @@ use spatial_fetch::cli::{Common, Exit, Failure};
 use spatial_fetch::files::write_file;
 use spatial_fetch::perception::training::{Schooling, train};
 
-use crate::Command;
+use crate::{Reads, Subcommand};
 
 /// Learns the furniture detector from rooms furnished at random and seen by a simulated Kinect; the same
 /// count and seed give the same bytes. `--output` names the file, `perceive --model` reads it.
@@ -16,23 +16,15 @@ pub struct Arguments {
     /// Frames to learn the categories from; half as many again are rendered for joining and fronts
     #[arg(long, value_name = "N", default_value_t = 4000)]
     count: u64,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
-    }
+impl Subcommand for Arguments {
+    const READS: Reads = Reads::Options;
 
-    fn reads_files(&self) -> bool {
-        false
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
-        let model = train(Schooling { frames: self.count, seed: self.common.seed });
-        let path = self.common.output.as_deref().unwrap_or(Path::new("furniture.model"));
-        write_file(path, &model.write(), self.common.force).map_err(|error| Failure::Failed(error.to_string()))?;
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
+        let model = train(Schooling { frames: self.count, seed: common.seed });
+        let path = common.output.as_deref().unwrap_or(Path::new("furniture.model"));
+        write_file(path, &model.write(), common.force).map_err(|error| Failure::Failed(error.to_string()))?;
         Ok(Exit::Done)
     }
 }

@@ -5,7 +5,7 @@ use spatial_fetch::cli::{self, Common, Exit, Failure, HomeArguments};
 use spatial_fetch::evaluation::{what_if, what_if_text};
 use spatial_fetch::trial::Settings;
 
-use crate::Command;
+use crate::{Reads, Subcommand};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -20,32 +20,26 @@ pub struct Arguments {
     /// Shift this piece of furniture only; may be given several times
     #[arg(long, value_name = "ID")]
     piece: Vec<String>,
-    #[command(flatten)]
-    common: Common,
 }
 
-impl Command for Arguments {
-    fn common(&self) -> &Common {
-        &self.common
+impl Subcommand for Arguments {
+    fn reads(&self) -> Reads {
+        if self.text.is_none() { Reads::FilesOrStandardInput } else { Reads::Files }
     }
 
-    fn reads_standard_input(&self) -> bool {
-        self.text.is_none()
-    }
-
-    fn run(&self) -> Result<Exit, Failure> {
+    fn run(&self, common: &Common) -> Result<Exit, Failure> {
         let (id, text) = match &self.text {
             Some(text) => ("1".to_string(), text.clone()),
-            None => cli::find_description(&self.common.files, self.id.as_deref())?,
+            None => cli::find_description(&common.files, self.id.as_deref())?,
         };
         let home = self.home.load()?;
         if let Some(unknown) = self.piece.iter().find(|id| home.scene.item(id).is_none()) {
             let ids: Vec<&str> = home.scene.furniture.iter().map(|item| item.id.as_str()).collect();
             return Err(Failure::Usage(format!("--piece: no {unknown:?} here; there are {}", ids.join(", "))));
         }
-        let settings = Settings { seed: self.common.seed, ..Settings::default() };
-        let found = cli::on_threads(self.common.jobs, || what_if(&id, &text, &home, &settings, &self.piece))?;
-        cli::write_report(&self.common, &found, || what_if_text(&found))?;
+        let settings = Settings { seed: common.seed, ..Settings::default() };
+        let found = cli::on_threads(common.jobs, || what_if(&id, &text, &home, &settings, &self.piece))?;
+        cli::write_report(common, &found, || what_if_text(&found))?;
         Ok(Exit::Done)
     }
 }
