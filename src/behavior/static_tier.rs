@@ -36,32 +36,7 @@ impl Executive<'_> {
         self.pilot.begin("search");
         self.pilot.be_bold(false);
         let arrived = self.pilot.pose();
-        self.pilot.sweep(SWEEP_RAD)?;
-        self.look_further(task, room, arrived)?;
-        self.study_rivals(task, room, arrived)?;
-        if let Some(found) = self.try_all(task, room, arrived)? {
-            return Ok(Ok(found));
-        }
-        if let Some(found) = self.follow_glimpses(task)? {
-            return Ok(Ok(found));
-        }
-        if !self.options.no_fallback {
-            for lookout in lookouts(self.pilot.grid(), room, self.pilot.pose().position()) {
-                self.look_round_at(lookout)?;
-                if let Some(found) = self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())? {
-                    return Ok(Ok(found));
-                }
-            }
-        }
-        self.pilot.because(
-            "a look may have missed it; looking at everything once more, from other sides and through narrower gaps",
-        );
-        self.pilot.be_bold(true);
-        self.pilot.beliefs.search_anew();
-        if let Some(found) = self.try_all(task, room, arrived)? {
-            return Ok(Ok(found));
-        }
-        if let Some(found) = self.follow_glimpses(task)? {
+        if let Some(found) = self.look_for(task, room, arrived)? {
             return Ok(Ok(found));
         }
         let object = task.object.unwrap_or("any portable object").replace('_', " ");
@@ -72,6 +47,43 @@ impl Executive<'_> {
         let why = format!("no {object} on any of {count} pieces of furniture looked at; {blame}");
         self.pilot.end(&why);
         Ok(Err(why))
+    }
+
+    fn look_for(&mut self, task: &Task, room: &RoomFrame, arrived: Pose) -> Result<Option<String>, Halt> {
+        self.pilot.sweep(SWEEP_RAD)?;
+        self.look_further(task, room, arrived)?;
+        self.study_rivals(task, room, arrived)?;
+        let mut found = self.round(task, room, arrived)?;
+        if found.is_none() && !self.options.no_fallback {
+            found = self.look_elsewhere(task, room)?;
+        }
+        if found.is_none() {
+            self.pilot.because(
+                "a look may have missed it; looking at everything once more, from other sides and through narrower gaps",
+            );
+            self.pilot.be_bold(true);
+            self.pilot.beliefs.search_anew();
+            found = self.round(task, room, arrived)?;
+        }
+        Ok(found)
+    }
+
+    /// Everything known, then what was glimpsed.
+    fn round(&mut self, task: &Task, room: &RoomFrame, arrived: Pose) -> Result<Option<String>, Halt> {
+        let found = self.try_all(task, room, arrived)?;
+        if found.is_some() { Ok(found) } else { self.follow_glimpses(task) }
+    }
+
+    /// From one place of the room after the other, all that shows itself from there.
+    fn look_elsewhere(&mut self, task: &Task, room: &RoomFrame) -> Result<Option<String>, Halt> {
+        for lookout in lookouts(self.pilot.grid(), room, self.pilot.pose().position()) {
+            self.look_round_at(lookout)?;
+            let found = self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())?;
+            if found.is_some() {
+                return Ok(found);
+            }
+        }
+        Ok(None)
     }
 
     /// What the words fit, best first, then all other table-like furniture.
