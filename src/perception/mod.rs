@@ -12,6 +12,7 @@
 //! the eyes of the simulated robot, from ideal to nothing true; they are the
 //! only places here that may look at the scene.
 
+mod beyond;
 pub mod boxes;
 mod describe;
 mod detector;

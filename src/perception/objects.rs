@@ -7,6 +7,7 @@
 use std::ops::{Range, RangeInclusive};
 
 use super::ObjectSighting;
+use super::beyond::goes_on_beyond;
 use crate::frame::RgbdFrame;
 use crate::geometry::{Polygon, Vec2, vec2};
 use crate::record::Detection;
@@ -102,8 +103,11 @@ fn on_top(frame: &RgbdFrame, detection: &Detection) -> Vec<ObjectSighting> {
     let Some(window) = window(frame, &footprint) else { return Vec::new() };
     let points = points_over(frame, &footprint, window);
     let Some(plate) = plate_height(&points) else { return Vec::new() };
-    let spots = spots(frame, &points, plate);
-    blobs(&spots, window).iter().filter_map(|blob| sighting(frame, blob)).collect()
+    let blobs = blobs(&spots(frame, &points, plate), window);
+    let ends =
+        |blob: &&Vec<Spot>| !goes_on_beyond(frame, blob.iter().map(|spot| (spot.column, spot.row)), &footprint, plate);
+    let things = blobs.iter().filter(ends);
+    things.filter_map(|blob| sighting(frame, blob)).collect()
 }
 
 /// Columns and rows in which a footprint can show, from the floor to the tallest object.
