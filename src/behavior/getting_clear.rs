@@ -49,7 +49,7 @@ impl Pilot<'_> {
 
     /// What the sonars hear nearer than a turn in place allows, in the robot's frame, metres.
     pub(super) fn heard_within_swing(&self) -> impl Iterator<Item = Vec2> {
-        self.base.sonar().iter().map(heard_at).filter(|point| point.norm() < TURNING_M)
+        self.base.sonar().iter().map(SonarReading::echo).filter(|point| point.norm() < TURNING_M)
     }
 
     fn creep(&mut self, toward: End) -> Result<(), Halt> {
@@ -74,7 +74,7 @@ impl Pilot<'_> {
     pub(super) fn met_something(&mut self) -> Result<bool, Halt> {
         let ahead = self.base.sonar().iter().filter(|reading| reading.bearing.abs() <= GUARD_RAD);
         if let Some(nearest) = ahead.min_by(|a, b| a.range_m.total_cmp(&b.range_m)) {
-            let point = self.pose().to_world(heard_at(nearest));
+            let point = self.pose().to_world(nearest.echo());
             self.beliefs.bumps.push(point);
             self.because(format!("the sonar met something at ({:.1}, {:.1}); going round", point.x, point.y));
         }
@@ -140,9 +140,4 @@ impl Pilot<'_> {
             self.tick(0.0, 0.0)?;
         }
     }
-}
-
-/// Where a reading's echo is, in the robot's frame, metres.
-fn heard_at(reading: &SonarReading) -> Vec2 {
-    reading.mount + vec2(reading.bearing.cos(), reading.bearing.sin()) * reading.range_m
 }

@@ -1,5 +1,7 @@
 //! Where pixels look, and where points show.
 
+use std::ops::RangeInclusive;
+
 use super::RgbdFrame;
 
 impl RgbdFrame {
@@ -24,6 +26,21 @@ impl RgbdFrame {
         let [x, y, z] = [0, 1, 2].map(|axis| (0..3).map(|k| m[k][axis] * d[k]).sum::<f64>());
         let i = &self.intrinsics;
         (z > 0.2).then(|| (i.cx + i.fx * x / z, i.cy + i.fy * y / z, z))
+    }
+
+    /// The point of the world that shows at a pixel at a depth, metres.
+    pub fn point(&self, column: usize, row: usize, depth: f64) -> [f64; 3] {
+        let (eye, ray) = (self.eye(), self.ray(column, row));
+        [0, 1, 2].map(|k| eye[k] + ray[k] * depth)
+    }
+
+    /// The units of depth from the least to the greatest of some depths, metres, with a margin to both sides; never 0,
+    /// which is none.
+    pub fn units_between(&self, depths: impl Iterator<Item = f64>, margin_m: f64) -> RangeInclusive<u16> {
+        let (near, far) = depths.fold((f64::INFINITY, 0.0_f64), |(near, far), z| (near.min(z), far.max(z)));
+        // Conversions to u16 saturate.
+        let units = |depth: f64| (depth / self.depth_unit_m) as u16;
+        units(near - margin_m).max(1)..=units(far + margin_m)
     }
 
     /// Depth at a pixel, metres; nothing outside the picture or where nothing came back.
@@ -55,8 +72,7 @@ mod tests {
                 [0.0, 0.0, 0.0, 1.0],
             ],
         };
-        let (eye, ray) = (frame.eye(), frame.ray(3, 2));
-        let (column, row, depth) = frame.pixel([0, 1, 2].map(|k| eye[k] + 2.5 * ray[k])).expect("ahead");
+        let (column, row, depth) = frame.pixel(frame.point(3, 2, 2.5)).expect("ahead");
         assert!((column - 3.0).abs() < 1e-9 && (row - 2.0).abs() < 1e-9 && (depth - 2.5).abs() < 1e-9);
         assert_eq!(frame.depth_at(column, row), Some(0.012));
         assert_eq!((frame.depth_at(4.0, 2.0), frame.depth_at(-1.0, 2.0)), (None, None));

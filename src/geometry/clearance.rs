@@ -48,8 +48,8 @@ impl ClearanceGrid {
     pub fn add_about(&mut self, polygon: &Polygon, margin_m: f64) {
         let (low, high) = polygon.bounds();
         let margin = Vec2::repeat(margin_m);
-        self.lower(low - margin, high + margin, |point, beyond| {
-            let distance = if beyond { polygon.distance_to_border(point) } else { polygon.distance_to(point) };
+        self.lower(low - margin, high + margin, |point, to_box| {
+            let distance = if to_box > 1e-6 { polygon.distance_to_border(point) } else { polygon.distance_to(point) };
             (distance - margin_m).max(0.0)
         });
     }
@@ -58,7 +58,7 @@ impl ClearanceGrid {
     pub fn add_square(&mut self, middle: Vec2, side_m: f64) {
         let half = Vec2::repeat(side_m / 2.0);
         let (low, high) = (middle - half, middle + half);
-        self.lower(low, high, |point, _| (low - point).sup(&(point - high)).sup(&Vec2::zeros()).norm());
+        self.lower(low, high, |_, to_box| to_box);
     }
 
     /// Adds a solid square that others surround: it is nearest to none but a cell whose middle it covers.
@@ -71,8 +71,8 @@ impl ClearanceGrid {
         }
     }
 
-    /// `distance` is told whether the point lies beyond the box from `low` to `high`, that holds the obstacle.
-    fn lower(&mut self, low: Vec2, high: Vec2, distance: impl Fn(Vec2, bool) -> f64) {
+    /// `distance` is told how far the point lies from the box from `low` to `high`, that holds the obstacle, metres.
+    fn lower(&mut self, low: Vec2, high: Vec2, distance: impl Fn(Vec2, f64) -> f64) {
         let reach = Vec2::repeat(self.reach_m);
         let (first, last) = (self.cell(low - reach), self.cell(high + reach));
         for y in first.1.max(0)..=last.1.min(self.height as i32 - 1) {
@@ -83,7 +83,7 @@ impl ClearanceGrid {
                 let to_box = (low - centre).sup(&(centre - high)).sup(&Vec2::zeros()).norm_squared();
                 let known = f64::from(*cell) + 1e-6;
                 if to_box < known * known {
-                    *cell = cell.min(distance(centre, to_box > 1e-12) as f32);
+                    *cell = cell.min(distance(centre, to_box.sqrt()) as f32);
                 }
             }
         }

@@ -50,8 +50,7 @@ fn is_beyond(frame: &RgbdFrame, (column, row): (usize, usize), side: f64, outlin
             None => {}
         }
     }
-    let (eye, ray) = (frame.eye(), frame.ray(at as usize, row));
-    let [x, y, z] = [0, 1, 2].map(|k| eye[k] + ray[k] * depth);
+    let [x, y, z] = frame.point(at as usize, row, depth);
     z > top + LEAST_M && outline.distance_to(vec2(x, y)) > LEAST_M
 }
 
@@ -78,7 +77,7 @@ mod tests {
         let over = |at: &usize| {
             let (column, row) = (at % frame.width, at / frame.width);
             let depth = frame.depth_at(column as f64, row as f64).unwrap_or(0.0);
-            let [x, y, z] = [0, 1, 2].map(|k| frame.eye()[k] + frame.ray(column, row)[k] * depth);
+            let [x, y, z] = frame.point(column, row, depth);
             depth > 0.0 && usize::from(ids[*at]) == number && z > 0.65 && outline.contains(vec2(x, y))
         };
         let pixels: Vec<_> = (0..ids.len()).filter(over).map(|at| (at % frame.width, at / frame.width)).collect();

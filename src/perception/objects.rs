@@ -52,17 +52,14 @@ fn points_of_row(
     })
 }
 
-/// Depths in the sensor's units, never 0, between which all points over a footprint lie: most pixels are elsewhere.
+/// Depths in the sensor's units between which all points over a footprint lie: most pixels are elsewhere.
 fn depths_over(frame: &RgbdFrame, footprint: &Polygon, heights: Range<f64>) -> RangeInclusive<u16> {
     // Poses written with few decimals turn and stretch a little.
     const MARGIN_M: f64 = 0.1;
     let (m, eye) = (&frame.world_from_camera, frame.eye());
     let ahead = |x: f64, y: f64, z: f64| m[0][2] * (x - eye[0]) + m[1][2] * (y - eye[1]) + m[2][2] * (z - eye[2]);
     let corners = footprint.corners().iter().flat_map(|c| [heights.start, heights.end].map(|z| ahead(c.x, c.y, z)));
-    let (near, far) = corners.fold((f64::INFINITY, 0.0_f64), |(near, far), z| (near.min(z), far.max(z)));
-    // Conversions to u16 saturate.
-    let units = |depth: f64| (depth / frame.depth_unit_m) as u16;
-    units(near - MARGIN_M).max(1)..=units(far + MARGIN_M)
+    frame.units_between(corners, MARGIN_M)
 }
 
 /// One pixel that shows something on a plate.
@@ -104,10 +101,9 @@ fn on_top(frame: &RgbdFrame, detection: &Detection) -> Vec<ObjectSighting> {
     let points = points_over(frame, &footprint, window);
     let Some(plate) = plate_height(&points) else { return Vec::new() };
     let blobs = blobs(&spots(frame, &points, plate), window);
-    let ends =
+    let is_whole =
         |blob: &&Vec<Spot>| !goes_on_beyond(frame, blob.iter().map(|spot| (spot.column, spot.row)), &footprint, plate);
-    let things = blobs.iter().filter(ends);
-    things.filter_map(|blob| sighting(frame, blob)).collect()
+    blobs.iter().filter(is_whole).filter_map(|blob| sighting(frame, blob)).collect()
 }
 
 /// Columns and rows in which a footprint can show, from the floor to the tallest object.

@@ -56,13 +56,10 @@ impl Rays {
         Self { turn, centre, step, unit, height, floor: FloorPlane::default() }
     }
 
-    /// Units of depth between which some points lie, with `margin_m` to either side.
-    pub fn depths(&self, points: impl Iterator<Item = [f32; 3]>, margin_m: f32) -> std::ops::RangeInclusive<u16> {
+    /// The depth of a point along the optical axis, metres.
+    pub fn depth(&self, [x, y, z]: [f32; 3]) -> f32 {
         let [ahead, left, up] = self.turn.map(|row| row[2]);
-        let depths = points.map(|[x, y, z]| ahead * x + left * y + up * (z - self.height));
-        let (near, far) = depths.fold((f32::INFINITY, 0.0_f32), |(near, far), z| (near.min(z), far.max(z)));
-        // Conversions to u16 saturate.
-        ((near - margin_m) / self.unit) as u16..=((far + margin_m) / self.unit) as u16
+        ahead * x + left * y + up * (z - self.height)
     }
 
     /// The point of one pixel; nothing where no depth came back.

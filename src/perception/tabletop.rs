@@ -16,7 +16,7 @@ const FARTHEST_M: f64 = 3.2;
 /// Nothing portable is higher, metres.
 const HIGHEST_M: f32 = 0.6;
 /// Pixels nearer or farther than that space by this need no second look, metres.
-const DEPTH_MARGIN_M: f32 = 0.2;
+const DEPTH_MARGIN_M: f64 = 0.2;
 /// Smaller tops hold nothing, square metres.
 const LEAST_TOP_M2: f64 = 0.05;
 /// Fewer pixels are noise.
@@ -97,7 +97,8 @@ impl Patch {
         let (px, py) = (top.pose.x as f32, top.pose.y as f32);
         let half = [top.half.x as f32, top.half.y as f32];
         let mut places = Vec::with_capacity((right - left) * (below - above));
-        let depths = points.rays.depths(top.corners(), DEPTH_MARGIN_M);
+        let depths =
+            frame.units_between(top.corners().map(|corner| f64::from(points.rays.depth(corner))), DEPTH_MARGIN_M);
         for row in above..below {
             let line = &frame.depth[row * frame.width..][left..right];
             places.extend(line.iter().zip(left..).map(|(depth, column)| {

@@ -7,7 +7,7 @@ pub mod p3dx;
 pub mod simulated;
 pub mod sonar;
 
-use crate::geometry::{Pose, Vec2};
+use crate::geometry::{Pose, Vec2, vec2};
 
 /// A differential-drive base.
 pub trait MobileBase {
@@ -44,6 +44,13 @@ pub struct SonarReading {
     pub bearing: f64,
     /// Metres to the nearest echo; [`p3dx::SONAR_RANGE_M`] when there is none.
     pub range_m: f64,
+}
+
+impl SonarReading {
+    /// Where the echo is, in the robot's frame, metres.
+    pub fn echo(&self) -> Vec2 {
+        self.mount + vec2(self.bearing.cos(), self.bearing.sin()) * self.range_m
+    }
 }
 
 /// What a base reports of itself.

@@ -6,11 +6,11 @@ use super::pace::Pace;
 use super::{Home, Outputs, Run, Settings};
 use crate::behavior::{Furniture, Watcher, grid_of};
 use crate::frame::RgbdFrame;
-use crate::geometry::{ClearanceGrid, Pose, vec2};
+use crate::geometry::{ClearanceGrid, Pose};
 use crate::perception::View;
 use crate::record::{Detection, Record};
 use crate::recording::{LogError, Piece, Target, TimedFrame, TrialLog};
-use crate::robot::{MobileBase, p3dx};
+use crate::robot::{MobileBase, SonarReading, p3dx};
 
 /// The keys the stages add, in their order, under the stage's name.
 const STAGES: [(&str, &[&str]); 4] =
@@ -116,9 +116,7 @@ impl Watcher for Recorder {
     fn sensed(&mut self, base: &dyn MobileBase) {
         self.log.pose(base.time_s(), base.pose(), base.velocity());
         let heard = base.sonar().iter().filter(|reading| reading.range_m < p3dx::SONAR_RANGE_M);
-        let echoes: Vec<_> = heard
-            .map(|reading| reading.mount + vec2(reading.bearing.cos(), reading.bearing.sin()) * reading.range_m)
-            .collect();
+        let echoes: Vec<_> = heard.map(SonarReading::echo).collect();
         self.log.sonar(base.time_s(), &echoes);
         if let Some(pace) = &self.pace {
             pace.wait(base.time_s());

@@ -3,7 +3,7 @@
 use super::outputs::{Outputs, file_name};
 use super::recorder::Recorder;
 use super::{Home, Run, Settings, run, stream_of};
-use crate::behavior::Silent;
+use crate::behavior::{Silent, Watcher};
 use crate::files::{FileError, write_file};
 use crate::record::{Note, Plan, Record, Stage, StageError, Trial};
 use crate::recording::LogError;
@@ -22,29 +22,23 @@ pub struct Driver {
 impl Driver {
     fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
         let failed = |error: LogError| StageError::new(error.to_string());
-        let recorder = Recorder::begin(&self.outputs, id, &self.home, &self.settings, record).map_err(failed)?;
-        let Some(mut recorder) = recorder else {
-            let mut run = run(&self.home, plan, &self.settings, stream_of(id), &mut Silent);
-            let picture = self.outputs.picture.is_some().then(|| self.take_picture(&run));
-            self.leave(&mut run, picture.as_deref(), record, id)?;
-            record.set("trial", &run.trial);
-            return Ok(());
-        };
-        recorder.options(&self.outputs.options);
-        if let Some(times) = self.outputs.pace {
-            recorder.keep_pace(times);
+        let mut recorder = Recorder::begin(&self.outputs, id, &self.home, &self.settings, record).map_err(failed)?;
+        if let Some(recorder) = &mut recorder {
+            recorder.options(&self.outputs.options);
+            self.outputs.pace.into_iter().for_each(|times| recorder.keep_pace(times));
         }
-        let mut run = run(&self.home, plan, &self.settings, stream_of(id), &mut recorder);
-        let picture = self.take_picture(&run);
-        self.leave(&mut run, Some(&picture), record, id)?;
+        let watcher: &mut dyn Watcher = match &mut recorder {
+            Some(recorder) => recorder,
+            None => &mut Silent,
+        };
+        let mut run = run(&self.home, plan, &self.settings, stream_of(id), watcher);
+        let wants_picture = recorder.is_some() || self.outputs.picture.is_some();
+        let picture = wants_picture.then(|| Outputs::take_picture(&self.home, &run).color_png());
+        self.leave(&mut run, picture.as_deref(), record, id)?;
         record.set("trial", &run.trial);
+        let (Some(recorder), Some(picture)) = (recorder, picture) else { return Ok(()) };
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
         recorder.finish(&run, picture, &line).map_err(failed)
-    }
-
-    /// What the camera shows at the end, PNG.
-    fn take_picture(&self, run: &Run) -> Vec<u8> {
-        Outputs::take_picture(&self.home, run).color_png()
     }
 
     /// Writes the plot and the picture, where they are wanted.

@@ -231,9 +231,7 @@ impl<'c> Sensor<'c> {
             }
         } else {
             for (depth, &disparity) in self.line.depth.iter_mut().zip(&self.line.disparity) {
-                let metres = FOCAL_BASELINE / disparity;
-                let out = self.faults.range && !(RANGE.0..=RANGE.1).contains(&metres);
-                *depth = if out || disparity <= 0.0 { 0 } else { (1000.0 * metres + 0.5).min(65535.0) as u16 };
+                *depth = if disparity <= 0.0 { 0 } else { millimetres(FOCAL_BASELINE / disparity, self.faults.range) };
             }
         }
         &self.line.depth[..self.canvas.width]
@@ -303,10 +301,12 @@ fn step(disparity: &[f32], steps: &mut [u32], last: f32) {
 fn depth_of_steps(range: bool) -> Vec<u16> {
     let last = (STEPS * FOCAL_BASELINE / 0.1) as usize;
     (0..=last)
-        .map(|step| {
-            let depth = STEPS * FOCAL_BASELINE / step.max(1) as f32;
-            let out = range && !(RANGE.0..=RANGE.1).contains(&depth);
-            if out || step == 0 { 0 } else { (1000.0 * depth + 0.5).min(65535.0) as u16 }
-        })
+        .map(|step| if step == 0 { 0 } else { millimetres(STEPS * FOCAL_BASELINE / step as f32, range) })
         .collect()
+}
+
+/// A depth as the picture has it; 0 out of range, where that counts.
+fn millimetres(metres: f32, range: bool) -> u16 {
+    let out = range && !(RANGE.0..=RANGE.1).contains(&metres);
+    if out { 0 } else { (1000.0 * metres + 0.5).min(65535.0) as u16 }
 }
