@@ -1,6 +1,7 @@
 //! Plans in, trials out.
 
 mod executive;
+mod number;
 mod outputs;
 mod replay;
 mod robot;

@@ -10,6 +10,8 @@ use spatial_fetch::cli::{Failure, Reporter};
 use spatial_fetch::recording::Live;
 use spatial_fetch::trial::Outputs;
 
+use crate::number::within;
+
 #[derive(Args)]
 #[command(next_help_heading = "Outputs")]
 pub struct Arguments {
@@ -26,7 +28,7 @@ pub struct Arguments {
     #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = "127.0.0.1:8765", conflicts_with = "serve")]
     live: Option<Address>,
     /// Show simulated trials so many times faster than real time
-    #[arg(long, value_name = "TIMES", requires = "live", default_value_t = 1.0, value_parser = times)]
+    #[arg(long, value_name = "TIMES", requires = "live", default_value_t = 1.0, value_parser = within(0.01..=10_000.0))]
     live_speed: f64,
 }
 
@@ -80,9 +82,4 @@ impl Address {
             .remark(&format!("live at ws://{host}:{} (Foxglove: Open connection, Foxglove WebSocket)", live.port()));
         Ok(Arc::new(live))
     }
-}
-
-fn times(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "not a number".to_string())?;
-    if (0.01..=10_000.0).contains(&value) { Ok(value) } else { Err("must be from 0.01 to 10000".to_string()) }
 }

@@ -14,6 +14,8 @@ use spatial_fetch::robot::arcos::server::{ServeAddress, ServerSettings};
 use spatial_fetch::robot::p3dx::SonarArray;
 use spatial_fetch::trial::{Home, NoEyes, Outputs, RealDriver, Served, StreamEyes, Tell};
 
+use crate::number::within;
+
 /// The models whose scales are known.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Model {
@@ -33,10 +35,10 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE", default_value = "none")]
     camera: PathBuf,
     /// Fastest, m/s
-    #[arg(long, value_name = "M/S", default_value_t = 0.3, value_parser = speed)]
+    #[arg(long, value_name = "M/S", default_value_t = 0.3, value_parser = within(0.01..=1.5))]
     max_speed: f64,
     /// Speeding up and slowing down, m/s²
-    #[arg(long, value_name = "M/S2", default_value_t = 0.3, value_parser = speed)]
+    #[arg(long, value_name = "M/S2", default_value_t = 0.3, value_parser = within(0.01..=1.5))]
     max_acceleration: f64,
     /// Milliseconds after which the robot stops unless told again to go on
     #[arg(long, value_name = "MS", default_value_t = 300, value_parser = clap::value_parser!(u64).range(50..=2000))]
@@ -68,11 +70,6 @@ pub struct Arguments {
     /// Milliseconds without a command after which it stops by itself
     #[arg(long, value_name = "MS", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(100..=65535), requires = "serve", help_heading = "Serving the simulated robot")]
     watchdog: u64,
-}
-
-fn speed(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "not a number".to_string())?;
-    if (0.01..=1.5).contains(&value) { Ok(value) } else { Err("must be from 0.01 to 1.5".to_string()) }
 }
 
 impl Arguments {

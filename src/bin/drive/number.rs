@@ -1,0 +1,12 @@
+//! Numbers of the command line that must lie in a range.
+
+use std::ops::RangeInclusive;
+
+/// Reads such a number.
+pub fn within(range: RangeInclusive<f64>) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        let value: f64 = text.parse().map_err(|_| "not a number".to_string())?;
+        let outside = || format!("must be from {} to {}", range.start(), range.end());
+        range.contains(&value).then_some(value).ok_or_else(outside)
+    }
+}
