@@ -3,7 +3,7 @@
 use super::meaning::{Meaning, pair};
 use super::words::ChunkWords;
 use crate::language::{Class, Lexicon, Relation, Role, Unit, UnitKind, leading_relation, units};
-use crate::record::{Amount, Direction, Grounding, Pair, Tag};
+use crate::record::{Amount, Direction, Grounding, Pair, Reference, Tag};
 
 /// What the own words of `chunk` mean. `continues_move`: it is joined to a move by "and" or "then".
 pub fn meaning_of(chunk: &ChunkWords, lexicon: &Lexicon, continues_move: bool) -> Meaning {
@@ -288,7 +288,7 @@ impl Words<'_> {
         pairs[0].ordinal = self.ordinal();
         if let Some(second) = nouns.get(1).filter(|second| *second != reference) {
             if direction == Direction::Between {
-                pairs[0].and = Some(second.clone());
+                pairs[0].and = Some(Reference::of(second));
             }
             pairs.push(pair(second, direction));
         }
@@ -353,12 +353,13 @@ pub fn settle_target(grounding: &mut Grounding, lexicon: &Lexicon) {
     if grounding.nodes.iter().any(|node| node.target.is_some()) {
         return;
     }
-    let holds =
-        |pair: &Pair| pair.direction == Direction::Side && lexicon.class_of(&pair.reference) == Some(Class::TableLike);
+    let holds = |pair: &Pair| {
+        pair.direction == Direction::Side && lexicon.class_of(pair.reference.name()) == Some(Class::TableLike)
+    };
     for node in &mut grounding.nodes {
         if let Some(at) = node.pairs.iter().position(holds) {
             let table = node.pairs.remove(at);
-            node.target = Some(table.reference);
+            node.target = Some(table.reference.to_string());
             node.ordinal = table.ordinal;
             node.score = 0.7.into();
             return;
