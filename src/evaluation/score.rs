@@ -153,7 +153,7 @@ impl Group {
             found.iter().for_each(|bracket| self.bracket_precision.count(gold.brackets.contains(bracket)));
             self.exact_trees.count(found == gold.brackets);
         }
-        if reached.grounding && gold.has_grounding {
+        if reached.grounding && gold.is_labelled() {
             self.add_grounding(gold, answer.grounding.as_ref());
         }
         if reached.trial {

@@ -307,8 +307,9 @@ impl Words<'_> {
 
     fn object(&self) -> Meaning {
         let known = self.nouns(|class| class == Class::Object).last().map(str::to_string);
+        let indefinite = known.is_some() && self.has(&["a", "an", "some"]) && !self.has(&["the"]);
         let (object, score) = match known {
-            Some(name) if self.has(&["a", "an", "some"]) && !self.has(&["the"]) => (Some(name), 0.8),
+            Some(name) if indefinite => (Some(name), 0.8),
             Some(name) => (Some(name), 0.97),
             None => match self.furniture_asked_for() {
                 Some(name) => (Some(name), 0.85),
@@ -316,14 +317,7 @@ impl Words<'_> {
             },
         };
         let because = object.as_ref().map_or("names no object".to_string(), |name| format!("names `{name}`"));
-        Meaning {
-            object,
-            indefinite: score == 0.8,
-            attributes: self.attributes(),
-            score,
-            because,
-            ..Meaning::default()
-        }
+        Meaning { object, indefinite, attributes: self.attributes(), score, because, ..Meaning::default() }
     }
 
     /// "The lamp is (on the desk)": furniture that stands on furniture.
