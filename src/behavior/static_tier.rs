@@ -76,7 +76,7 @@ impl Executive<'_> {
 
     /// From one place of the room after the other, all that shows itself from there.
     fn look_elsewhere(&mut self, task: &Task, room: &RoomFrame) -> Result<Option<String>, Halt> {
-        for lookout in lookouts(self.pilot.grid(), room, self.pilot.pose().position()) {
+        for lookout in lookouts(self.pilot.grid(), room, self.pilot.pose().position(), self.pilot.ways().to_turn) {
             self.look_round_at(lookout)?;
             let found = self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())?;
             if found.is_some() {
@@ -119,7 +119,7 @@ impl Executive<'_> {
 
     /// While the best candidate is a guess, or a landmark that was named has not been seen, looks from elsewhere.
     fn look_further(&mut self, task: &Task, room: &RoomFrame, arrived: Pose) -> Result<(), Halt> {
-        for lookout in lookouts(self.pilot.grid(), room, arrived.position()) {
+        for lookout in lookouts(self.pilot.grid(), room, arrived.position(), self.pilot.ways().to_turn) {
             let place = Place { room, arrived };
             let ranked = rank(&self.pilot.beliefs, &task.wanted, place, self.lexicon);
             let is_plausible =

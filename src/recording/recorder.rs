@@ -15,7 +15,7 @@ use crate::geometry::{ClearanceGrid, Pose};
 use crate::map::RoomMap;
 use crate::perception::View;
 use crate::record::{Chunk, Detection, Grounding, Part, Plan, Record, Token, Trial};
-use crate::robot::{MobileBase, SonarReading, p3dx};
+use crate::robot::{MobileBase, SonarReading};
 
 /// The keys the stages add, in their order, under the stage's name.
 const STAGES: [(&str, &[&str]); 4] = [
@@ -135,7 +135,7 @@ fn inputs(record: &Record) -> Vec<(&'static str, String)> {
 impl Watcher for Recorder {
     fn sensed(&mut self, base: &dyn MobileBase) {
         self.log.pose(base.time_s(), base.pose(), base.velocity());
-        let heard = base.sonar().iter().filter(|reading| reading.range_m < p3dx::SONAR_RANGE_M);
+        let heard = base.sonar().iter().filter(|reading| reading.range_m < base.body().sonar_range_m);
         let echoes: Vec<_> = heard.map(SonarReading::echo).collect();
         self.log.sonar(base.time_s(), &echoes);
         if let Some(pace) = &self.pace {
