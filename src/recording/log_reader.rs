@@ -13,9 +13,7 @@ use mcap::records::{Record, op};
 
 use super::chunk::unpack;
 use super::{LogError, Loss};
-
-/// No record is longer than this: a length beyond it is damage, bytes.
-pub(super) const LONGEST_RECORD: u64 = 1 << 28;
+use crate::limits::MCAP_RECORD_BYTES;
 
 /// The messages of a log in its order, those of a chunk by their time, with everything that was lost on the way.
 ///
@@ -75,7 +73,7 @@ impl<R: Read> LogReader<R> {
         if got < head.len() {
             return self.cut(begins);
         }
-        if length > LONGEST_RECORD {
+        if length > MCAP_RECORD_BYTES.value {
             return self.lose(Loss::at(begins, "damaged: a record with an impossible length; what follows is lost"));
         }
         let mut body = Vec::new();

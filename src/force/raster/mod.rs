@@ -13,7 +13,7 @@ mod image;
 mod piece;
 mod ray;
 
-pub use self::image::{MOST_CELLS, Raster, RasterError};
+pub use self::image::{Raster, RasterError};
 
 use self::correlation::Covariogram;
 use self::ray::Rays;
