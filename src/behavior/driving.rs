@@ -2,20 +2,14 @@
 
 use super::furniture::Furniture;
 use super::getting_clear::{End, GUARD_M};
-use super::pilot::{Halt, PLAIN_VIEW_M, Pilot, SWING_M, TICK_S};
+use super::pilot::{Halt, PLAIN_VIEW_M, Pilot, TICK_S};
 use super::route::{length, route};
 use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, distance_to_segment, wrap_angle};
 
 /// Ticks between two glimpses while driving.
 const TICKS_PER_GLIMPSE: usize = 6;
-/// Where there is room for it, a way keeps this clear, metres.
-const ROOMY_M: f64 = 0.52;
 /// What a detour for room may cost, a share of the way.
 const DETOUR: f64 = 1.25;
-/// Where there is no wider way, as through a door of 0.9 m, this must do, metres; and where there is none so wide, and
-/// the robot is bold, this: it has room to drive, and before a turn it makes room.
-pub const NARROW_M: f64 = 0.4;
-const BOLD_M: f64 = 0.36;
 /// What a route may shrink by before it is planned anew, metres.
 const SHRINKS_M: f64 = 0.01;
 /// Speeds and the braking they count on.
@@ -141,7 +135,7 @@ impl Pilot<'_> {
     pub fn go_into(&mut self, outline: &Polygon, name: &str) -> Result<(), Halt> {
         let here = self.pose().position();
         let off = |point: &Vec2| (point - here).norm();
-        let inside = free_inside(&self.grid, outline).min_by(|a, b| off(a).total_cmp(&off(b)));
+        let inside = free_inside(&self.grid, outline, self.clearances.to_turn).min_by(|a, b| off(a).total_cmp(&off(b)));
         let Some(goal) = inside else { return Err(Halt::Blocked(format!("the {name} has no room for the robot"))) };
         self.because(format!("no door leads into the {name}; it is entered at ({:.1}, {:.1})", goal.x, goal.y));
         self.go_to(goal)?;
@@ -151,13 +145,13 @@ impl Pilot<'_> {
 
     /// What a way must keep clear where there is no wider one, metres.
     pub(super) fn narrowest(&self) -> f64 {
-        if self.is_bold { BOLD_M } else { NARROW_M }
+        if self.is_bold { self.clearances.bold } else { self.clearances.narrow }
     }
 
     /// The roomy way, unless it leads elsewhere or far about; when what the sonars met closes every way, without that.
     fn way_to(&mut self, goal: Vec2) -> Option<Vec<Vec2>> {
         let here = self.pose().position();
-        let widths = [SWING_M, self.narrowest()];
+        let widths = [self.clearances.to_turn, self.narrowest()];
         let to_goal = |grid: &ClearanceGrid| widths.into_iter().find_map(|clear| route(grid, here, goal, clear));
         let mut narrow = to_goal(&self.grid);
         if narrow.is_none() && !self.beliefs.bumps.is_empty() {
@@ -168,7 +162,7 @@ impl Pilot<'_> {
         }
         let narrow = narrow?;
         let (end, metres) = (narrow.last().copied().unwrap_or(here), length(here, &narrow));
-        let roomy = route(&self.grid, here, goal, ROOMY_M).filter(|way| {
+        let roomy = route(&self.grid, here, goal, self.clearances.roomy).filter(|way| {
             let near = way.last().is_some_and(|last| (last - end).norm() < NEAR_M);
             near && length(here, way) < DETOUR * metres
         });
@@ -204,7 +198,7 @@ impl Pilot<'_> {
             let distance = self.pose().distance_to(point);
             let fastest = (2.0 * BRAKE_M_S2 * distance.min(free.max(0.0)))
                 .sqrt()
-                .clamp(0.05, if self.is_bold { BOLD_M_S } else { SPEED_M_S });
+                .clamp(0.05, if self.is_bold { BOLD_M_S } else { SPEED_M_S }.min(self.body.speed_m_s));
             self.tick(fastest * off.cos().max(0.0), (1.5 * off).clamp(-TURN_RAD_S, TURN_RAD_S))?;
             if self.is_held() {
                 self.touched()?;
@@ -232,11 +226,15 @@ impl Pilot<'_> {
 }
 
 /// The places well inside an outline where the robot can turn.
-fn free_inside<'a>(grid: &'a ClearanceGrid, outline: &'a Polygon) -> impl Iterator<Item = Vec2> + 'a {
+fn free_inside<'a>(
+    grid: &'a ClearanceGrid,
+    outline: &'a Polygon,
+    to_turn: f64,
+) -> impl Iterator<Item = Vec2> + 'a {
     let (low, high) = outline.bounds();
     let (from, to) = (grid.cell(low), grid.cell(high));
     let cells = (from.0..=to.0).flat_map(move |x| (from.1..=to.1).map(move |y| (x, y)));
-    cells.filter(|&cell| grid.clearance(cell) >= SWING_M).map(|cell| grid.centre(cell)).filter(|&point| {
+    cells.filter(move |&cell| grid.clearance(cell) >= to_turn).map(|cell| grid.centre(cell)).filter(|&point| {
         outline.contains(point) && outline.edges().all(|(a, b)| distance_to_segment(point, a, b) >= WELL_INSIDE_M)
     })
 }

@@ -2,7 +2,7 @@
 
 use super::pilot::{Halt, Pilot, TICK_S};
 use crate::geometry::{Vec2, vec2};
-use crate::robot::{SonarReading, p3dx};
+use crate::robot::SonarReading;
 
 /// The sonar's last word: nothing ahead nearer than this, metres from the sonar.
 pub(super) const GUARD_M: f64 = 0.16;
@@ -10,8 +10,6 @@ pub(super) const GUARD_M: f64 = 0.16;
 const GUARD_RAD: f64 = 0.7;
 /// A sonar's range is this old at most, seconds: eight fire one after another.
 const SONAR_AGE_S: f64 = 0.32;
-/// A turn in place needs this much round the wheels' middle, metres.
-const TURNING_M: f64 = p3dx::SWING_M + 0.03;
 /// How fast it moves where it sees nothing, metres a second.
 const CREEP_M_S: f64 = 0.1;
 /// How far the robot backs off from what it touched, metres.
@@ -49,7 +47,8 @@ impl Pilot<'_> {
 
     /// What the sonars hear nearer than a turn in place allows, in the robot's frame, metres.
     pub(super) fn heard_within_swing(&self) -> impl Iterator<Item = Vec2> {
-        self.base.sonar().iter().map(SonarReading::echo).filter(|point| point.norm() < TURNING_M)
+        let heard = self.clearances.heard;
+        self.base.sonar().iter().map(SonarReading::echo).filter(move |point| point.norm() < heard)
     }
 
     fn creep(&mut self, toward: End) -> Result<(), Halt> {
@@ -89,7 +88,7 @@ impl Pilot<'_> {
 
     /// Something neither eyes nor sonars had reported stopped the robot: back off, remember it, plan anew.
     pub(super) fn touched(&mut self) -> Result<(), Halt> {
-        let point = self.pose().to_world(vec2(p3dx::FRONT_M + 0.05, 0.0));
+        let point = self.pose().to_world(vec2(self.body.front_m + 0.05, 0.0));
         self.because(format!("touched something at ({:.1}, {:.1}); backing off", point.x, point.y));
         self.beliefs.bumps.push(point);
         self.back_off(End::Rear)?;
@@ -119,7 +118,7 @@ impl Pilot<'_> {
             heard.extend(self.heard_within_swing().map(|point| here.to_world(point)));
             let points = heard.iter().map(|&point| here.to_local(point));
             let Some(nearest) = points.min_by(|a, b| a.norm().total_cmp(&b.norm())) else { break };
-            let lacks = TURNING_M - nearest.norm();
+            let lacks = self.clearances.heard - nearest.norm();
             let is_abreast = nearest.x.abs() < ABREAST_M;
             let away = if nearest.x < 0.0 { End::Front } else { End::Rear };
             let toward = if is_abreast { *past.get_or_insert(self.freer_end()) } else { away };

@@ -10,6 +10,7 @@
 
 mod approach;
 mod beliefs;
+mod clearances;
 mod driving;
 mod executive;
 mod free_space;
@@ -32,12 +33,12 @@ mod watcher;
 
 pub use approach::Ways;
 pub use beliefs::Beliefs;
-pub use driving::NARROW_M;
+pub use clearances::Clearances;
 pub use executive::{Executive, Options, Report};
 pub use furniture::Furniture;
 pub use journal::Journal;
 pub use localizer::Localizer;
-pub use pilot::{Halt, SWING_M, grid_of};
+pub use pilot::{Halt, grid_of};
 pub use relation::Place;
 pub use route::{length, route};
 pub use trial_record::{Run, plan_of, rounded, text_of};

@@ -3,12 +3,11 @@
 use std::f64::consts::PI;
 
 use super::localizer::Localizer;
-use super::{Beliefs, Journal, Watcher, Ways};
+use super::{Beliefs, Clearances, Journal, Watcher, Ways};
 use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, segments_touch, wrap_angle};
 use crate::map::RoomMap;
 use crate::perception::{Eyes, View};
-use crate::robot::{MobileBase, RobotError};
-pub use crate::simulation::arrange::access::SWING_M;
+use crate::robot::{Body, MobileBase, RobotError};
 
 /// Control period, seconds.
 pub(super) const TICK_S: f64 = 0.1;
@@ -21,6 +20,7 @@ pub(super) const PLAIN_VIEW_M: std::ops::Range<f64> = 1.3..4.0;
 const PLAIN_VIEW_RAD: f64 = 0.4;
 /// A line of sight passes walls by this, metres: a cell's middle lies half a cell off them at most.
 const SIGHT_M: f64 = 0.08;
+
 /// Why the executive had to end early.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Halt {
@@ -50,6 +50,8 @@ pub struct Pilot<'a> {
     pub(super) base: &'a mut dyn MobileBase,
     eyes: &'a mut dyn Eyes,
     watcher: &'a mut dyn Watcher,
+    pub(super) body: Body,
+    pub(super) clearances: Clearances,
     localizer: Localizer,
     rooms_only: ClearanceGrid,
     pub(super) grid: ClearanceGrid,
@@ -75,6 +77,7 @@ impl<'a> Pilot<'a> {
         time_limit_s: f64,
         odometry_only: bool,
     ) -> Self {
+        let body = base.body();
         let localizer = Localizer::new(map, base, odometry_only);
         let rooms_only = grid_of(map);
         let grid = rooms_only.clone();
@@ -83,6 +86,8 @@ impl<'a> Pilot<'a> {
             base,
             eyes,
             watcher,
+            body,
+            clearances: Clearances::of(&body),
             localizer,
             rooms_only,
             grid,
@@ -113,7 +118,8 @@ impl<'a> Pilot<'a> {
     /// Where the robot is and can go.
     pub fn ways(&self) -> Ways<'_> {
         let (grid, rooms) = (&self.grid, &self.rooms_only);
-        Ways { grid, rooms, from: self.pose().position(), narrowest: self.narrowest() }
+        let to_turn = self.clearances.to_turn;
+        Ways { grid, rooms, from: self.pose().position(), to_turn, narrowest: self.narrowest() }
     }
 
     /// What the last look showed.

@@ -3,13 +3,21 @@
 //! Nothing here plans: a base takes velocities and reports what it measures.
 
 pub mod arcos;
+mod body;
 pub mod p3dx;
+mod real;
 pub mod sonar;
+
+pub use body::Body;
+pub use real::{Event, RealBase, Remote};
 
 use crate::geometry::{Pose, Vec2, vec2};
 
 /// A differential-drive base.
 pub trait MobileBase {
+    /// Its outline and the limits it keeps to.
+    fn body(&self) -> Body;
+
     /// Where the base believes it is, by odometry, in the room map's frame.
     fn pose(&self) -> Pose;
 
@@ -41,7 +49,7 @@ pub struct SonarReading {
     pub mount: Vec2,
     /// Which way it looks, radians from straight ahead.
     pub bearing: f64,
-    /// Metres to the nearest echo; [`p3dx::SONAR_RANGE_M`] when there is none.
+    /// Metres to the nearest echo; the body's `sonar_range_m` when there is none.
     pub range_m: f64,
 }
 
