@@ -12,8 +12,9 @@ use mcap::read::{ChannelAccumulator, parse_record};
 use mcap::records::{Record, op};
 
 use super::chunk::unpack;
-use super::link::{LONGEST_RECORD, link};
+use super::link::link;
 use super::{LogError, Loss};
+use crate::limits::MCAP_RECORD_BYTES;
 
 /// The messages of a log in its order, those of a chunk by their time, with everything that was lost on the way.
 ///
@@ -73,7 +74,7 @@ impl<R: Read> LogReader<R> {
         if got < head.len() {
             return self.cut(begins);
         }
-        if length > LONGEST_RECORD {
+        if length > MCAP_RECORD_BYTES.value {
             return self.lose(Loss::at(begins, "damaged: a record with an impossible length; what follows is lost"));
         }
         let mut body = Vec::new();

@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 use nalgebra::Isometry3;
 
 use super::sensed::Transform;
+use crate::limits::TRANSFORM_CHAIN;
 
 /// Beyond the first and last sample a transform is believed for this long, nanoseconds.
 const TOLERANCE_NS: u64 = 200_000_000;
-/// No chain of frames is longer than this: a longer one is a loop.
-const LONGEST_CHAIN: usize = 64;
 /// Frames that stand for the world: a chain ends there.
 const WORLDS: [&str; 2] = ["map", "world"];
 
@@ -83,7 +82,7 @@ impl TransformTree {
     /// Whether nothing can still come that bears on where a frame was at that time.
     pub(super) fn is_settled(&self, frame: &str, stamp_ns: u64) -> bool {
         let mut frame = frame;
-        for _ in 0..LONGEST_CHAIN {
+        for _ in 0..TRANSFORM_CHAIN.count() {
             let Some(track) = self.tracks.get(frame) else { return WORLDS.contains(&frame) };
             let newest = track.samples.last_key_value().map_or(0, |(&stamp, _)| stamp);
             if !track.fixed && newest < stamp_ns {
@@ -97,7 +96,7 @@ impl TransformTree {
     /// Where `frame` was at that time, in the outermost frame known.
     pub(super) fn place(&self, frame: &str, stamp_ns: u64) -> Result<Placed, Unplaced> {
         let mut placed = Placed { root: frame.to_string(), root_from_frame: Isometry3::identity() };
-        for _ in 0..LONGEST_CHAIN {
+        for _ in 0..TRANSFORM_CHAIN.count() {
             if WORLDS.contains(&placed.root.as_str()) {
                 break;
             }

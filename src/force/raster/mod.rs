@@ -14,7 +14,7 @@ mod nodes;
 mod piece;
 mod ray;
 
-pub use self::image::{MOST_CELLS, Raster, RasterError};
+pub use self::image::{Raster, RasterError};
 
 use self::correlation::Covariogram;
 use self::ray::Rays;
