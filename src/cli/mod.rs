@@ -15,12 +15,14 @@ mod input;
 mod interrupt;
 mod line;
 mod log_input;
+mod number;
 mod output;
 mod program;
 mod progress;
 mod scores;
 mod source;
 mod threads;
+mod trial_options;
 
 pub use arguments::{ColorChoice, Common, Format};
 pub use diagnostic::{Diagnostic, Reporter};
@@ -33,6 +35,7 @@ pub use input::{Inputs, read_file};
 pub use interrupt::on_interrupt;
 pub use line::Line;
 pub use log_input::FromLog;
+pub use number::within;
 pub use output::{SharedSink, Sink, is_output_closed, open_output};
 pub use program::{Program, command_of, main};
 pub use progress::Progress;
@@ -42,3 +45,4 @@ pub use scores::{
 };
 pub use source::Source;
 pub use threads::{counted_on_threads, on_threads};
+pub use trial_options::{OptionsError, TIME_LIMIT_S, TrialOptions};
