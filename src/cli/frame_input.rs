@@ -8,7 +8,6 @@ use std::path::{Path, PathBuf};
 use super::filter::{Outcome, finish, run_source};
 use super::log_input::{Bytes, open_log};
 use super::{Common, Diagnostic, Exit, Failure, FromLog, Inputs, Line, Source};
-use crate::frame::RgbdFrame;
 use crate::record::{Note, Record, Stage, StageError};
 use crate::recording::{FrameOptions, FrameReader, TimedFrame};
 
@@ -16,7 +15,7 @@ use crate::recording::{FrameOptions, FrameReader, TimedFrame};
 const BATCH_FRAMES: usize = 8;
 
 /// What a seeing stage adds to the record of one frame.
-pub type See<'a> = dyn Fn(&RgbdFrame, &mut Record) -> Result<Note, StageError> + Sync + 'a;
+pub type See<'a> = dyn Fn(&TimedFrame, &mut Record) -> Result<Note, StageError> + Sync + 'a;
 
 /// What there is to read: records that name frames, or logs that hold them.
 pub enum FrameInput {
@@ -177,7 +176,7 @@ pub fn run_frames(
         record.set("log_ns", &item.timed.log_ns);
         record.set("robot_pose", &item.timed.robot);
         let mut outcome = Outcome::default();
-        finish(&item.line(), record, common.format, stage, &|record| see(&item.timed.frame, record), &mut outcome);
+        finish(&item.line(), record, common.format, stage, &|record| see(&item.timed, record), &mut outcome);
         outcome
     })
 }

@@ -7,6 +7,7 @@
 //! Offsets are bytes into `text`. Lengths are metres and angles radians,
 //! counter-clockwise, unless a name ends in `_deg`.
 
+mod camera;
 mod chunk;
 mod detection;
 mod grounding;
@@ -17,6 +18,7 @@ mod precision;
 mod stage;
 mod trial;
 
+pub use camera::{CameraPose, PoseSource};
 pub use chunk::{Chunk, Tag, Token};
 pub use detection::Detection;
 pub use grounding::{Amount, Direction, Frame, Grounding, Node, ObjectSlot, Pair, Reading, RoomSlot, TextSpan, Why};

@@ -185,7 +185,13 @@ impl Assembly {
             intrinsics,
             world_from_camera: rows(&placed.root_from_frame),
         };
-        Ok(TimedFrame { stamp_ns: header.stamp_ns, log_ns, robot: self.robot_at(header.stamp_ns), frame })
+        Ok(TimedFrame {
+            stamp_ns: header.stamp_ns,
+            log_ns,
+            robot: self.robot_at(header.stamp_ns),
+            frame,
+            pose_from: crate::record::PoseSource::Transforms,
+        })
     }
 
     fn place(&mut self, header: &Header, items: &mut Items) -> Result<Placed, String> {

@@ -1,7 +1,6 @@
 //! Plans in, trials out.
 
 mod executive;
-mod number;
 mod outputs;
 mod replay;
 mod robot;

@@ -10,7 +10,7 @@ use spatial_fetch::cli::{Failure, Reporter};
 use spatial_fetch::recording::Live;
 use spatial_fetch::recording::Outputs;
 
-use crate::number::within;
+use spatial_fetch::cli::within;
 
 #[derive(Args)]
 #[command(next_help_heading = "Outputs")]

@@ -18,7 +18,7 @@ use spatial_fetch::simulation::arcos::DryLine;
 use spatial_fetch::simulation::arcos::{ServeAddress, ServerSettings};
 use spatial_fetch::simulation::{Home, Served};
 
-use crate::number::within;
+use spatial_fetch::cli::within;
 
 /// The models whose scales are known.
 #[derive(Clone, Copy, Debug, ValueEnum)]
