@@ -99,7 +99,7 @@ impl Program for Arguments {
     }
     fn run(self) -> Result<Exit, Failure> {
         let (perceiver, common) = (self.perceiver()?, &self.common);
-        match FrameInput::open(&common.files, &self.log)? {
+        match FrameInput::open(&common.files, &self.log, perceiver.told)? {
             input if self.fuse => fuse::run(common, input, &perceiver),
             FrameInput::Lines(mut lines) => cli::run_filter_on(Self::NAME, common, &mut lines, INTAKE, &perceiver),
             FrameInput::Logs(mut logs) => {
