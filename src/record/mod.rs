@@ -7,6 +7,7 @@
 //! Offsets are bytes into `text`. Lengths are metres and angles radians,
 //! counter-clockwise, unless a name ends in `_deg`.
 
+mod camera;
 mod chunk;
 mod detection;
 mod direction;
@@ -20,6 +21,7 @@ mod reference;
 mod stage;
 mod trial;
 
+pub use camera::{CameraPose, PoseSource};
 pub use chunk::{Chunk, Tag, Token};
 pub use detection::Detection;
 pub use direction::{Direction, Frame, Motion};
