@@ -106,6 +106,7 @@ impl<'a> Executive<'a> {
                 let (during, limit) = (self.pilot.journal.during(), self.options.time_limit_s);
                 (Outcome::Timeout, format!("{during}not found within {limit} s"))
             }
+            Err(Halt::Stuck(why)) => (Outcome::Stuck, format!("{}{why}", self.pilot.journal.during())),
             Err(Halt::Stopped) => (Outcome::Stopped, "told to stop".to_string()),
             Err(Halt::Held(why)) => (Outcome::Stopped, why),
             Err(Halt::LinkLost(why)) => (Outcome::LinkLost, why),
