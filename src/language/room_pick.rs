@@ -5,12 +5,13 @@
 //! beside furniture is a place, and after a room that is named outright a
 //! turn is a turn inside it.
 
-use super::phrases::{Kind, Phrase};
-use super::units::{Unit, UnitKind};
-use super::word_class::Role;
+use super::phrases::{From, Kind, Phrase};
+use super::units::Unit;
+use super::word_class::{Class, Role};
 use crate::record::Direction;
 
 /// The phrases that pick the room.
+#[derive(Clone, Debug, PartialEq)]
 pub struct RoomPick {
     /// The phrase that says which.
     pub first: usize,
@@ -57,22 +58,22 @@ impl Reader<'_> {
     /// Left or right, of a turn, a place beside the hearer, or a room with its side.
     fn side(&self, at: usize) -> Option<Direction> {
         let phrase = self.phrases.get(at)?;
-        let (first, past) = match phrase.kind {
-            Kind::Turn | Kind::Side => (phrase.first, phrase.past),
-            Kind::Room => phrase.inner?,
-            _ => return None,
-        };
-        self.units[first..past].iter().rev().find_map(|unit| match (unit.role(), unit.lower.as_ref()) {
-            (Some(Role::Side), "left") => Some(Direction::Left),
-            (Some(Role::Side), "right") => Some(Direction::Right),
+        let lateral = |direction: &Direction| matches!(direction, Direction::Left | Direction::Right);
+        match phrase.kind {
+            Kind::Turn | Kind::Side => phrase.directions[0].filter(lateral),
+            Kind::Room => phrase.side,
             _ => None,
-        })
+        }
     }
 
     /// The first phrase of the pick.
     fn first(&self) -> Option<usize> {
         let all = 0..self.phrases.len();
-        let mut sided = all.clone().filter(|&i| self.side(i).is_some() && !self.is_beside_furniture(i));
+        let entered = all.clone().find(|&i| self.shows_inside(i)).unwrap_or(self.phrases.len());
+        let picks = |i: &usize| {
+            self.side(*i).is_some() && !self.is_beside_furniture(*i) && (*i < entered || self.kind(*i) == Some(Kind::Room))
+        };
+        let mut sided = all.clone().filter(picks);
         let rooms = all.clone().find(|&i| self.kind(i) == Some(Kind::Room));
         let Some(first) = sided.next() else { return rooms };
         let named = rooms.filter(|&room| room < first && self.is_named(room) && !self.is_sided_by_next(room));
@@ -90,6 +91,17 @@ impl Reader<'_> {
         let later = (first + 1..inside).find(|&i| self.kind(i) == Some(Kind::Room) && self.side(i).is_some());
         let later = later.or_else(|| (first + 1..inside).find(|&i| self.side(i).is_some() && self.enters(i)));
         Some(later.unwrap_or(first))
+    }
+
+    /// What shows that the robot is in the room already: it turns round, faces something, or has reached furniture.
+    fn shows_inside(&self, at: usize) -> bool {
+        let phrase = &self.phrases[at];
+        match phrase.kind {
+            Kind::Turn => phrase.directions[0] == Some(Direction::Back) && self.units[phrase.first..phrase.past].iter().any(|unit| matches!(unit.lower.as_ref(), "around" | "round")),
+            Kind::Perspective => phrase.from == From::Nouns,
+            Kind::Target | Kind::Landmark => phrase.is_reached(),
+            _ => false,
+        }
     }
 
     /// A turn right before "into the room".
@@ -113,10 +125,10 @@ impl Reader<'_> {
     /// "The bedroom", not "the room" or "the door".
     fn is_named(&self, at: usize) -> bool {
         let phrase = &self.phrases[at];
-        self.units[phrase.first..phrase.past].iter().any(|unit| match unit.kind {
-            UnitKind::Noun(name, class) => class == super::word_class::Class::Room && name != "room",
-            _ => false,
-        })
+        self.units[phrase.first..phrase.past]
+            .iter()
+            .filter_map(|unit| unit.noun)
+            .any(|noun| noun.class == Class::Room && noun.name != "room")
     }
 
     /// "In the living room … on the right", the side right after the room.
@@ -156,14 +168,14 @@ impl Reader<'_> {
         let phrase = &self.phrases[at];
         match phrase.kind {
             Kind::Part => self.is_door(phrase),
-            Kind::Side => self.units[phrase.first].role() == Some(Role::Ahead) && self.side(at).is_none(),
+            Kind::Side => self.units[phrase.first].has(Role::Ahead) && self.side(at).is_none(),
             _ => false,
         }
     }
 
     fn is_door(&self, phrase: &Phrase) -> bool {
         let units = &self.units[phrase.first..phrase.past];
-        units.iter().any(|unit| unit.class() == Some(super::word_class::Class::Opening))
+        units.iter().any(|unit| unit.class() == Some(Class::Opening))
     }
 
     /// The room's side said again: before the pick, or with "into the room" after it.

@@ -14,6 +14,18 @@ pub struct Grounding {
     pub object: Option<ObjectSlot>,
     /// Reference–direction–target nodes, in the order spoken.
     pub nodes: Vec<Node>,
+    /// Further objects of the same errand.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub also: Vec<ObjectSlot>,
+    /// Where the objects shall be brought or put; absent when nowhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub destination: Option<Destination>,
+    /// What is ruled out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not: Vec<RuledOut>,
+    /// Further errands, in the order said.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub then: Vec<Grounding>,
     /// Confidence in the best whole reading, 0 to 1.
     #[serde(default)]
     pub score: Rounded,
@@ -38,6 +50,31 @@ pub struct Grounding {
     /// Per chunk: what it was taken for and why.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub why: Vec<Why>,
+}
+
+/// Where objects shall be brought or put.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Destination {
+    /// Who shall have them: `speaker`, or a name or description in lower_snake.
+    pub recipient: Option<String>,
+    /// The room.
+    pub room: Option<String>,
+    /// Noun of the furniture or container, in lower_snake.
+    pub target: Option<String>,
+}
+
+impl Destination {
+    /// Whether nothing was said of it.
+    pub fn is_empty(&self) -> bool {
+        self.recipient.is_none() && self.room.is_none() && self.target.is_none()
+    }
+}
+
+/// Something that is ruled out.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct RuledOut {
+    /// A noun or the name of a room, in lower_snake.
+    pub name: String,
 }
 
 /// A whole reading that lost to the best one.
@@ -130,12 +167,15 @@ impl Pair {
             (Direction::Between, Some(and)) => format!("between the {reference} and the {}", and.replace('_', " ")),
             (Direction::Between, None) => format!("between the {reference}s"),
             (Direction::Side, _) => format!("next to the {reference}"),
+            (Direction::Above, _) => format!("above the {reference}"),
+            (Direction::Under, _) => format!("under the {reference}"),
+            (Direction::Far, _) => format!("far from the {reference}"),
             (direction, _) => format!("{} of the {reference}", direction.name()),
         }
     }
 }
 
-/// The paper's seven directions.
+/// The paper's seven directions, and three beyond them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Direction {
@@ -153,6 +193,12 @@ pub enum Direction {
     Side,
     /// Between two references.
     Between,
+    /// Over it.
+    Above,
+    /// Below it.
+    Under,
+    /// Of several, the one farthest from it.
+    Far,
 }
 
 impl Direction {
@@ -166,7 +212,29 @@ impl Direction {
             Self::Central => "central",
             Self::Side => "side",
             Self::Between => "between",
+            Self::Above => "above",
+            Self::Under => "under",
+            Self::Far => "far",
         }
+    }
+
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::Front,
+        Self::Back,
+        Self::Left,
+        Self::Right,
+        Self::Central,
+        Self::Side,
+        Self::Between,
+        Self::Above,
+        Self::Under,
+        Self::Far,
+    ];
+
+    /// The direction of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|direction| direction.name() == name)
     }
 
     /// Left for right and right for left; the others as they are.

@@ -19,7 +19,9 @@ mod trial;
 
 pub use chunk::{Chunk, Tag, Token};
 pub use detection::Detection;
-pub use grounding::{Amount, Direction, Frame, Grounding, Node, ObjectSlot, Pair, Reading, RoomSlot, TextSpan, Why};
+pub use grounding::{
+    Amount, Destination, Direction, Frame, Grounding, Node, ObjectSlot, Pair, Reading, RoomSlot, RuledOut, TextSpan, Why,
+};
 pub use hof::{DegreeOfTruth, Hof, HofForce};
 pub use line::{FieldError, Record, message_without_position};
 pub use plan::{Action, Plan, SearchPair};
