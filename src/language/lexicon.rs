@@ -1,9 +1,10 @@
 //! The words the robot knows: data in `corpus/lexicon/`, one line a word.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::OnceLock;
 
+use super::vocabulary::{Vocabulary, nearest};
 use super::word_class::{Class, Role};
 
 /// A noun: its canonical name in lower_snake, and its class.
@@ -15,9 +16,14 @@ pub struct Noun {
     pub class: Class,
 }
 
-/// Shorter words are too near to too many others to be taken for misspelt.
-const LETTERS_FOR_ONE_EDIT: usize = 5;
-const LETTERS_FOR_TWO_EDITS: usize = 9;
+/// What kind of thing a noun names, and how sure that is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Classified {
+    /// The kind.
+    pub class: Class,
+    /// Whether it comes from WordNet's hypernyms, not from the lexicon: that counts less.
+    pub inferred: bool,
+}
 
 /// A line of a lexicon file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -42,8 +48,6 @@ pub struct Lexicon {
     starts: HashMap<String, usize>,
     /// What a word that is written otherwise means.
     spellings: HashMap<String, String>,
-    /// What looks like a misspelt noun and is none.
-    apart: HashSet<String>,
 }
 
 impl Lexicon {
@@ -56,8 +60,6 @@ impl Lexicon {
             let _ = lexicon.add_nouns(include_str!("../../corpus/lexicon/nouns.tsv"), "nouns.tsv");
             let _ = lexicon.add_words(include_str!("../../corpus/lexicon/words.tsv"), "words.tsv");
             let _ = lexicon.add_spellings(include_str!("../../corpus/lexicon/spellings.tsv"), "spellings.tsv");
-            lexicon.apart =
-                lines(include_str!("../../corpus/lexicon/apart.txt")).map(|(_, word)| word.concat()).collect();
             lexicon
         })
     }
@@ -149,6 +151,22 @@ impl Lexicon {
         self.noun(head).map(|noun| noun.class)
     }
 
+    /// The class of a noun, by the lexicon if it has it or its head, else as the vocabulary has it. What the vocabulary
+    /// has as a whole goes before the lexicon's head: a "card game" is no card.
+    pub fn classify(&self, noun: &str) -> Option<Classified> {
+        let written = |class| Classified { class, inferred: false };
+        let inferred = |class| Classified { class, inferred: true };
+        let vocabulary = Vocabulary::embedded();
+        if let Some(noun) = self.noun(&noun.replace('_', " ")) {
+            return Some(written(noun.class));
+        }
+        if let Some(noun) = vocabulary.noun(noun) {
+            return noun.class.class().map(inferred);
+        }
+        let by_head = self.class_of_head(&noun.replace(' ', "_"));
+        by_head.or_else(|| vocabulary.class_of(noun)?.class()).map(inferred)
+    }
+
     /// The canonical name of a noun given as words.
     pub fn canonical(&self, words: &str) -> Option<&str> {
         self.noun(words).map(|noun| noun.name.as_str())
@@ -169,18 +187,14 @@ impl Lexicon {
         self.starts.get(start).copied().unwrap_or(1)
     }
 
-    /// The noun that a word misspells: one edit away, or two for a long word; the same first letter; the nearest,
-    /// then the first in the alphabet. Linear in the lexicon, so only for words nothing else explains.
+    /// The noun that a word misspells: one edit away, or two for a long word; the nearest, then the first of the file.
+    /// A word of English misspells nothing. Linear in the lexicon, so only for words nothing else explains.
     pub fn nearest_noun(&self, word: &str) -> Option<&Noun> {
-        let most = if word.chars().count() < LETTERS_FOR_TWO_EDITS { 1 } else { 2 };
-        let first = word.chars().next()?;
-        let too_short = word.chars().count() < LETTERS_FOR_ONE_EDIT;
-        if too_short || !word.chars().all(char::is_alphabetic) || self.apart.contains(word) {
+        if Vocabulary::embedded().is_english(word) {
             return None;
         }
-        let near = self.names.keys().filter(|name| name.starts_with(first) && name.len().abs_diff(word.len()) <= most);
-        let near = near.map(|name| (strsim::osa_distance(word, name), name)).filter(|(distance, _)| *distance <= most);
-        near.min().and_then(|(_, name)| self.noun(name))
+        let names = self.names.iter().map(|(name, index)| (name.as_str(), *index));
+        nearest(word, names).map(|index| &self.nouns[index])
     }
 
     /// Names of rooms: canonical name and every way to say it, in the order of the file.
@@ -246,13 +260,27 @@ mod tests {
     }
 
     #[test]
-    fn a_word_that_names_something_else_is_no_misspelling() {
+    fn a_misspelt_noun_is_mended_and_a_word_of_english_left_alone() {
         let lexicon = Lexicon::embedded();
         let nearest = |word| lexicon.nearest_noun(word).map(|noun| noun.name.as_str());
-        assert_eq!([nearest("laddder"), nearest("larder")], [Some("ladder"), None]);
-        for word in &lexicon.apart {
-            assert!(lexicon.noun(word).is_none() && lexicon.word(word).is_none(), "`{word}` is a word of the lexicon");
+        let misspelt = ["mgu", "tabel", "laddder", "bedrom", "cuch", "refridgerator"];
+        assert_eq!(misspelt.map(nearest), ["mug", "table", "ladder", "bedroom", "couch", "fridge"].map(Some));
+        for word in ["closed", "washed", "heated", "longer", "larder", "broiler", "bells", "stack", "cpu"] {
+            assert_eq!(nearest(word), None, "{word}");
         }
+    }
+
+    #[test]
+    fn a_noun_the_lexicon_lacks_gets_its_class_from_the_vocabulary() {
+        let lexicon = Lexicon::embedded();
+        let class = |noun| lexicon.classify(noun).map(|found| (found.class, found.inferred));
+        assert_eq!(class("coffee_table"), Some((Class::TableLike, false)));
+        assert_eq!(class("peanuts"), Some((Class::Object, true)));
+        assert_eq!(class("escritoire"), Some((Class::TableLike, true)));
+        assert_eq!(class("drum table"), Some((Class::TableLike, false)));
+        assert_eq!(class("maple table"), Some((Class::TableLike, true)));
+        assert_eq!(class("grandmother"), None);
+        assert_eq!(class("xyzzy"), None);
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //!
 //! 1. [`tokens`]: words and where they stand.
 //! 2. [`lexicon`](Lexicon): nouns with their classes, other words with their roles; data that a person can extend.
+//!    Behind it stands the [`Vocabulary`]: what is a word of English, and what an unknown noun most likely names.
 //! 3. `units`: the longest entries of the lexicon in the text; fillers and addressees set aside.
 //! 4. `phrases`: finite-state patterns over units: moves, turns, rooms, places, furniture, objects.
 //! 5. `tree`: phrases nested under the nine tags of [`Tag`](crate::record::Tag).
@@ -22,13 +23,15 @@ mod stage;
 pub mod tokens;
 mod tree;
 mod units;
+mod vocabulary;
 mod word_class;
 
 pub use cursor::{Relation, leading_relation};
 pub use draw::draw_tree;
-pub use lexicon::{Lexicon, LexiconError, Noun, lexicon_with};
+pub use lexicon::{Classified, Lexicon, LexiconError, Noun, lexicon_with};
 pub use stage::Chunker;
 pub use units::{Unit, UnitKind, tag as tag_words, units};
+pub use vocabulary::{DamagedTable, NounClass, Vocabulary, VocabularyNoun};
 pub use word_class::{Class, Role};
 
 use crate::record::{Chunk, Token};
