@@ -292,10 +292,10 @@ mod tests {
     #[test]
     fn every_furniture_and_object_of_the_worlds_is_known() {
         let lexicon = Lexicon::embedded();
-        for category in crate::world::CATEGORIES {
+        for category in crate::catalogue::CATEGORIES {
             assert!(lexicon.class_of(category.noun).is_some_and(Class::is_furniture), "{}", category.noun);
         }
-        for object in crate::world::OBJECTS {
+        for object in crate::catalogue::OBJECTS {
             assert_eq!(lexicon.class_of(object.name), Some(Class::Object), "{}", object.name);
         }
     }
