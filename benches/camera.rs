@@ -2,9 +2,11 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use spatial_fetch::frame::Camera;
 use spatial_fetch::geometry::Pose;
-use spatial_fetch::world::camera::{Camera, Kinect, KinectFaults, SolidScene};
-use spatial_fetch::world::{RoomMap, Scene};
+use spatial_fetch::map::RoomMap;
+use spatial_fetch::simulation::Scene;
+use spatial_fetch::simulation::camera::{Kinect, KinectFaults, SolidScene};
 
 fn main() {
     divan::main();

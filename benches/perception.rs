@@ -2,7 +2,7 @@
 
 use divan::Bencher;
 use spatial_fetch::perception::Detector;
-use spatial_fetch::world::training;
+use spatial_fetch::simulation::training;
 
 fn main() {
     divan::main();

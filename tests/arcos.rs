@@ -5,16 +5,18 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use spatial_fetch::geometry::Pose;
+use spatial_fetch::map::RoomMap;
 use spatial_fetch::robot::arcos::client::{Client, ConnectError, Settings};
 use spatial_fetch::robot::arcos::codec::{
     Command, Decoder, ENCODER_PACKET, GYRO_PACKET, Gyro, IO_PACKET, Packet, SIP_STOPPED, number,
 };
-use spatial_fetch::robot::arcos::line::{Line, MemoryLine};
+use spatial_fetch::robot::arcos::line::Line;
 use spatial_fetch::robot::arcos::parameters::Parameters;
-use spatial_fetch::robot::arcos::server::{Server, ServerSettings};
-use spatial_fetch::robot::simulated::{Obstacles, SimulatedBase};
 use spatial_fetch::robot::{MobileBase, RobotError};
-use spatial_fetch::world::{RoomMap, Scene};
+use spatial_fetch::simulation::Scene;
+use spatial_fetch::simulation::arcos::MemoryLine;
+use spatial_fetch::simulation::arcos::{Server, ServerSettings};
+use spatial_fetch::simulation::base::{Obstacles, SimulatedBase};
 
 type Robot = Rc<RefCell<Server>>;
 

@@ -11,9 +11,10 @@ use faulty_line::{FaultyLine, Rates};
 use spatial_fetch::geometry::{Pose, wrap_angle};
 use spatial_fetch::robot::MobileBase;
 use spatial_fetch::robot::arcos::client::{Client, Settings};
-use spatial_fetch::robot::arcos::line::{Line, MemoryLine, PtyLine, SerialLine};
-use spatial_fetch::robot::arcos::server::{Server, ServerSettings};
-use spatial_fetch::robot::simulated::{Obstacles, SimulatedBase};
+use spatial_fetch::robot::arcos::line::{Line, PtyLine, SerialLine};
+use spatial_fetch::simulation::arcos::MemoryLine;
+use spatial_fetch::simulation::arcos::{Server, ServerSettings};
+use spatial_fetch::simulation::base::{Obstacles, SimulatedBase};
 
 /// A robot whose watchdog is set as short as our own deadline allows: with it, even a dead line stops in time.
 const WATCHDOG: Duration = Duration::from_millis(300);

@@ -12,10 +12,12 @@ use std::sync::OnceLock;
 use common::{executable, pipe, run};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use spatial_fetch::frame::Camera;
 use spatial_fetch::geometry::Pose;
+use spatial_fetch::map::RoomMap;
 use spatial_fetch::perception::FrameFiles;
-use spatial_fetch::world::camera::{Camera, Kinect, SolidScene};
-use spatial_fetch::world::{RoomMap, Scene};
+use spatial_fetch::simulation::Scene;
+use spatial_fetch::simulation::camera::{Kinect, SolidScene};
 
 /// Each filter with a record that it takes.
 fn filters() -> Vec<(&'static str, String)> {

@@ -4,8 +4,9 @@
 
 use proptest::prelude::*;
 use spatial_fetch::evaluation::{parse_tree, read_gold, score, with_texts};
+use spatial_fetch::map::RoomMap;
 use spatial_fetch::record::Record;
-use spatial_fetch::world::{RoomMap, Scene};
+use spatial_fetch::simulation::Scene;
 
 const MAP: &str = include_str!("../fixtures/apartment.map.json");
 const SCENE: &str = include_str!("../fixtures/apartment.scene.json");

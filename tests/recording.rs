@@ -10,11 +10,11 @@ use serde_json::Value;
 use spatial_fetch::behavior::Watcher;
 use spatial_fetch::frame::RgbdFrame;
 use spatial_fetch::geometry::Pose;
+use spatial_fetch::map::RoomMap;
 use spatial_fetch::perception::Detector;
 use spatial_fetch::record::{Plan, Record};
 use spatial_fetch::recording::records;
-use spatial_fetch::trial::{Home, Perception, Settings, stream_of};
-use spatial_fetch::world::RoomMap;
+use spatial_fetch::simulation::{Home, Perception, Settings, stream_of};
 
 const SENTENCE: &str = "the mug is in the bedroom on the table next to the chairs\n";
 
@@ -80,7 +80,7 @@ fn seen_and_recorded(folder: &Path) -> (Vec<Value>, String) {
     let settings = Settings { perception: Perception::Camera, seed: 2, ..Settings::default() };
     let mut witness = Witness { detector: Detector::default(), map: home.map.clone(), seen: Vec::new() };
     let stream = stream_of(&record.id().expect("an id"));
-    spatial_fetch::trial::run(&home, &plan, &settings, stream, &mut witness);
+    spatial_fetch::simulation::run(&home, &plan, &settings, stream, &mut witness);
     run("drive", &["--perception", "camera", "--seed", "2", "--record", &log], &planned).expect_code(0);
     (witness.seen, log)
 }

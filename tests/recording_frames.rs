@@ -12,9 +12,10 @@ use rand_chacha::rand_core::SeedableRng;
 use serde_json::{Value, json};
 use spatial_fetch::frame::RgbdFrame;
 use spatial_fetch::geometry::Pose;
+use spatial_fetch::map::RoomMap;
 use spatial_fetch::recording::{FrameWriter, TimedFrame};
-use spatial_fetch::world::camera::{Kinect, SolidScene};
-use spatial_fetch::world::{RoomMap, Scene};
+use spatial_fetch::simulation::Scene;
+use spatial_fetch::simulation::camera::{Kinect, SolidScene};
 
 /// When the first frame was taken, and the time to the next, seconds.
 const BEGIN_S: f64 = 1_700_000_000.0;
@@ -22,7 +23,7 @@ const STEP_S: f64 = 0.5;
 
 fn frames() -> Vec<RgbdFrame> {
     let solids = SolidScene::new(&RoomMap::apartment(), &Scene::apartment());
-    let kinect = Kinect { camera: spatial_fetch::world::camera::Camera::kinect().coarser(2), ..Kinect::default() };
+    let kinect = Kinect { camera: spatial_fetch::frame::Camera::kinect().coarser(2), ..Kinect::default() };
     let mut rng = ChaCha8Rng::seed_from_u64(7);
     let poses = [Pose::new(3.0, 2.0, 0.4), Pose::new(3.0, 2.0, 2.0)];
     poses.map(|pose| kinect.capture(&solids, pose, &mut rng).0).to_vec()

@@ -10,7 +10,7 @@ use std::process::Command;
 use common::{pipe, run};
 use served::{AHEAD, FAR_AHEAD, Served, client, home_in, wait_for};
 use spatial_fetch::geometry::vec2;
-use spatial_fetch::world::Scene;
+use spatial_fetch::simulation::Scene;
 
 #[test]
 fn a_dynamic_instruction_over_a_pseudo_terminal_ends_arrived_where_the_robot_believes_to_be() {
@@ -168,7 +168,7 @@ fn a_whole_fetch_trial_over_a_pseudo_terminal_with_its_camera_through_a_fifo() {
     let in_process = in_process.records().remove(0)["trial"].take();
     let place = vec2(number(&truth["x"]), number(&truth["y"]));
     let scene = Scene::apartment();
-    let distance = |item: &&spatial_fetch::world::Item| item.footprint().distance_to(place);
+    let distance = |item: &&spatial_fetch::simulation::Item| item.footprint().distance_to(place);
     let tables = scene.furniture.iter().filter(|item| item.category.contains("table"));
     let reached = tables.min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("tables");
     assert_eq!(reached.id, in_process["target_id"], "{trial}");

@@ -16,16 +16,18 @@ use std::time::Duration;
 
 use common::{executable, run};
 use served::{AHEAD, FAR_AHEAD, Served, home_in, start_with_plan, wait_for};
+use spatial_fetch::behavior::Options;
+use spatial_fetch::field::{NoEyes, RealDriver};
 use spatial_fetch::geometry::Pose;
+use spatial_fetch::map::load_map;
 use spatial_fetch::perception::{Eyes, View};
 use spatial_fetch::record::{Record, Stage};
+use spatial_fetch::recording::Outputs;
 use spatial_fetch::robot::arcos::client::{ArcosBase, Settings};
 use spatial_fetch::robot::arcos::line::{Line, SerialLine};
-use spatial_fetch::robot::arcos::server::{ServeAddress, Server, ServerSettings, serve};
-use spatial_fetch::robot::simulated::{Obstacles, SimulatedBase};
 use spatial_fetch::robot::{MobileBase, RobotError};
-use spatial_fetch::trial::{Home, NoEyes, Outputs, RealDriver, Settings as TrialSettings};
-use spatial_fetch::world::load_map;
+use spatial_fetch::simulation::arcos::{ServeAddress, Server, ServerSettings, serve};
+use spatial_fetch::simulation::base::{Obstacles, SimulatedBase};
 
 /// The robot stands, and it was our program that brought it to stand and said good-bye.
 fn expect_good_bye(served: &Served) {
@@ -238,8 +240,7 @@ fn own_driver(served: &Served, line: Box<dyn Line + Send>, eyes: Box<dyn Eyes + 
     let said: Said = Arc::default();
     let hears = Arc::clone(&said);
     let tell = Arc::new(move |text: &str| hears.lock().expect("whole").push_str(&format!("{text}\n")));
-    let (home, outputs) = (Home::unfurnished(map), Outputs::default());
-    (RealDriver::new(home, TrialSettings::default(), outputs, base, eyes, tell), said)
+    (RealDriver::new(map, Options::default(), Outputs::default(), base, eyes, tell), said)
 }
 
 type Said = Arc<Mutex<String>>;

@@ -5,7 +5,8 @@
 mod common;
 
 use common::{pipe, run};
-use spatial_fetch::world::{RoomMap, Scene};
+use spatial_fetch::map::RoomMap;
+use spatial_fetch::simulation::Scene;
 
 fn compare(name: &str, schema: &serde_json::Value) {
     let path = format!("{}/docs/schema/{name}.json", env!("CARGO_MANIFEST_DIR"));

@@ -6,7 +6,7 @@ use spatial_fetch::grounding::{GroundStage, Settings};
 use spatial_fetch::language::Chunker;
 use spatial_fetch::planning::Planner;
 use spatial_fetch::record::{Record, Stage};
-use spatial_fetch::world::RoomMap;
+use spatial_fetch::map::RoomMap;
 
 fuzz_target!(|line: &str| {
     let Ok(record) = Record::parse(line) else { return };

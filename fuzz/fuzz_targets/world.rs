@@ -2,7 +2,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use spatial_fetch::world::{RoomMap, Scene};
+use spatial_fetch::map::RoomMap;
+use spatial_fetch::simulation::Scene;
 
 fuzz_target!(|text: &str| {
     if let Ok(map) = RoomMap::from_json(text, "fuzz") {

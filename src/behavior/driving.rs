@@ -246,10 +246,11 @@ mod tests {
     use super::*;
     use crate::behavior::{Beliefs, Silent};
     use crate::geometry::vec2;
+    use crate::map::RoomMap;
     use crate::perception::{Eyes, View};
     use crate::record::Detection;
-    use crate::robot::simulated::{Obstacles, SimulatedBase};
-    use crate::world::{Noise, RoomMap, Scene};
+    use crate::simulation::base::{Obstacles, SimulatedBase};
+    use crate::simulation::{Noise, Scene};
 
     /// Eyes that see nothing.
     struct Shut;

@@ -9,10 +9,10 @@ use super::search::{Wanted, references};
 use super::{Halt, Journal, Watcher};
 use crate::geometry::{Polygon, Pose, Vec2};
 use crate::language::Lexicon;
+use crate::map::{Room, RoomMap};
 use crate::perception::Eyes;
 use crate::record::{Action, Amount, Outcome, Plan};
 use crate::robot::MobileBase;
-use crate::world::{Room, RoomMap};
 
 /// Half of the turn in which the robot looks for its target.
 pub(super) const SWEEP_RAD: f64 = 2.0 * PI / 3.0;

@@ -152,8 +152,9 @@ mod tests {
     use super::*;
     use crate::frame::RgbdFrame;
     use crate::geometry::Pose;
-    use crate::world::camera::{Kinect, SolidScene};
-    use crate::world::{RoomMap, Scene};
+    use crate::map::RoomMap;
+    use crate::simulation::Scene;
+    use crate::simulation::camera::{Kinect, SolidScene};
 
     /// A dinner table in the living room, and what a Kinect sees of it from all sides.
     fn table() -> (Polygon, Vec<RgbdFrame>) {

@@ -8,9 +8,9 @@
 use nalgebra::{Matrix4, Vector4};
 
 use crate::geometry::{Polygon, Pose, Vec2, vec2, wrap_angle};
+use crate::map::RoomMap;
 use crate::robot::sonar::{self, Echo, Segment};
 use crate::robot::{MobileBase, SonarReading, p3dx};
-use crate::world::RoomMap;
 
 /// Deviations at the start: position (m), heading and compass error (rad).
 const START_M: f64 = 0.1;
@@ -174,8 +174,8 @@ fn may_be(outline: &Polygon, origin: Vec2, axis: Vec2, echo: &Echo) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::simulated::{Obstacles, SimulatedBase};
-    use crate::world::{Noise, Scene};
+    use crate::simulation::base::{Obstacles, SimulatedBase};
+    use crate::simulation::{Noise, Scene};
 
     /// Drives rounds through the hallway for `minutes`, and returns how far belief and odometry are off, metres.
     fn patrol(minutes: f64, seed: u64, odometry_only: bool) -> f64 {

@@ -26,6 +26,7 @@ mod relation;
 mod route;
 pub mod search;
 mod static_tier;
+mod trial_record;
 mod wanted;
 mod watcher;
 
@@ -39,4 +40,5 @@ pub use localizer::Localizer;
 pub use pilot::{Halt, SWING_M, grid_of};
 pub use relation::Place;
 pub use route::{length, route};
+pub use trial_record::{Run, plan_of, rounded, text_of};
 pub use watcher::{Silent, Watcher};

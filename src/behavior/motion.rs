@@ -21,8 +21,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::geometry::{Polygon, Pose, Vec2, cross, vec2, wrap_angle};
+use crate::map::RoomMap;
 use crate::record::{Action, Amount, Direction};
-use crate::world::RoomMap;
 
 /// A walk without a stated end, metres.
 const WALK_M: f64 = 2.0;

@@ -5,10 +5,10 @@ use std::f64::consts::PI;
 use super::localizer::Localizer;
 use super::{Beliefs, Journal, Watcher, Ways};
 use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, segments_touch, wrap_angle};
+use crate::map::RoomMap;
 use crate::perception::{Eyes, View};
 use crate::robot::{MobileBase, RobotError};
-use crate::world::RoomMap;
-pub use crate::world::arrange::access::SWING_M;
+pub use crate::simulation::arrange::access::SWING_M;
 
 /// Control period, seconds.
 pub(super) const TICK_S: f64 = 0.1;

@@ -5,9 +5,9 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, FromLog, Intake, Program};
+use spatial_fetch::map::{RoomMap, load_map};
 use spatial_fetch::planning::Planner;
 use spatial_fetch::record::Plan;
-use spatial_fetch::world::{RoomMap, load_map};
 
 /// Turns what was understood into actions on a room map: enter the room, navigate inside it, find the object.
 ///

@@ -1,7 +1,7 @@
 //! Options of the simulated robot's eyes, which `drive` and `evaluate` spell alike.
 
-use crate::trial::{Perception, Settings};
-use crate::world::camera::{Kinect, KinectFaults, Light};
+use crate::simulation::camera::{Kinect, KinectFaults, Light};
+use crate::simulation::{Perception, Settings};
 
 /// What the simulated robot's eyes report, and how good its Kinect is.
 #[derive(Clone, Copy, Debug, clap::Args)]

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use super::Failure;
-use crate::trial::Home;
-use crate::world::{RoomMap, WorldError, load_map};
+use crate::map::{RoomMap, WorldError, load_map};
+use crate::simulation::Home;
 
 /// The simulated home.
 #[derive(Clone, Debug, Default, clap::Args)]

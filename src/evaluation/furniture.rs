@@ -7,27 +7,12 @@ use serde::Serialize;
 
 use super::Rate;
 use super::furniture_gold::{GoldFrame, GoldItem};
+use crate::catalogue::class_of;
 use crate::geometry::{Polygon, angle_between, vec2};
 use crate::record::{Detection, Rounded};
 
 /// Footprints that overlap by this much (intersection over union) are one piece.
 const LEAST_OVERLAP: f64 = 0.25;
-
-/// What must be told apart at least: table-like, seat, couch, bed, storage, lamp.
-pub fn kind_of(category: &str) -> Option<&'static str> {
-    Some(match category {
-        "table" | "desk" | "nightstand" | "night_stand" | "counter" | "coffee_table" | "end_table" | "side_table"
-        | "bedside_table" | "dining_table" | "dinner_table" | "stand" | "bedstand" => "table_like",
-        "chair" | "armchair" | "stool" | "ottoman" => "seat",
-        "couch" | "sofa" => "couch",
-        "bed" => "bed",
-        "wardrobe" | "dresser" | "bookshelf" | "bookcase" | "shelf" | "cabinet" | "tv_stand" | "dresser_mirror" => {
-            "storage"
-        }
-        "lamp" => "lamp",
-        _ => return None,
-    })
-}
 
 /// How well furniture was seen.
 #[derive(Clone, Debug, Default, Serialize, JsonSchema)]
@@ -76,7 +61,7 @@ impl FurnitureScores {
     fn add(&mut self, frame: &GoldFrame) {
         let boxes: Vec<Polygon> = frame.detections.iter().map(|d| polygon(&d.footprint)).collect();
         let mut used = vec![false; boxes.len()];
-        let furniture = frame.items.iter().filter(|i| kind_of(&i.category).is_some() && i.footprint.len() > 2);
+        let furniture = frame.items.iter().filter(|i| class_of(&i.category).is_some() && i.footprint.len() > 2);
         for item in furniture {
             let outline = polygon(&item.footprint);
             let free = (0..boxes.len()).filter(|i| !used[*i]).map(|i| (boxes[i].overlap(&outline), i));
@@ -105,7 +90,7 @@ impl SeenGroup {
     fn count(&mut self, item: &GoldItem, detection: Option<&Detection>) {
         self.found.count(detection.is_some());
         let Some(detection) = detection else { return };
-        self.kind.count(kind_of(&detection.category) == kind_of(&item.category));
+        self.kind.count(class_of(&detection.category) == class_of(&item.category));
         self.name.count(detection.category == item.category);
         self.centres.push((vec2(detection.x, detection.y) - vec2(item.x, item.y)).norm());
         if let Some(yaw) = detection.yaw.filter(|_| item.orientation_kind == "facing") {

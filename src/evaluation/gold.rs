@@ -176,7 +176,7 @@ mod tests {
     use crate::evaluation::labelled::LabelledChunk;
     use crate::evaluation::model::in_order;
     use crate::grounding::{Meaning, assemble, chunk_words, meaning_of_label};
-    use crate::world::Scene;
+    use crate::simulation::Scene;
 
     fn corpora() -> [(&'static str, &'static str); 2] {
         [

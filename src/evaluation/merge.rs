@@ -58,7 +58,7 @@ fn add_group(sum: &mut Group, part: &Group) {
 mod tests {
     use super::*;
     use crate::evaluation::{read_gold, run_corpus, score};
-    use crate::trial::{Home, Settings};
+    use crate::simulation::{Home, Settings};
 
     #[test]
     fn parts_add_up_to_the_whole() {

@@ -31,7 +31,7 @@ pub use blame::{Blame, Blames, Stage, Wanted, blame, blame_text, meaning_phrase}
 pub use brackets::{Bracket, brackets_of};
 pub use chunking::{ChunkingScores, TagScores, chunking_table, score_chunking};
 pub use compare::{Change, CompareError, Comparison, Measure, compare, comparison_text, mcnemar_exact};
-pub use furniture::{FurnitureScores, SeenGroup, kind_of, score_furniture};
+pub use furniture::{FurnitureScores, SeenGroup, score_furniture};
 pub use furniture_gold::{GoldFrame, GoldItem, gold_frames};
 pub use furniture_table::furniture_tables;
 pub use gold::{Gold, GoldError, Rules, read_gold};

@@ -1,12 +1,13 @@
 //! One description through all stages, with gold put in place of a stage where that is asked for.
 
 use super::Gold;
+use crate::behavior::Run;
 use crate::behavior::Silent;
 use crate::grounding::{Grounder, Method};
 use crate::language::chunk_text;
 use crate::planning::Planner;
 use crate::record::{Chunk, Grounding, Plan, Record, Token};
-use crate::trial::{Home, Run, Settings, run, stream_of};
+use crate::simulation::{Home, Settings, run, stream_of};
 
 /// The stages, in one home.
 pub struct Pipeline<'h> {

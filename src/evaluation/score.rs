@@ -11,7 +11,7 @@ use super::brackets::brackets_of;
 use super::grounding::judge;
 use super::{Gold, Pipeline, Rate};
 use crate::record::{Chunk, Grounding, Outcome, Record, Rounded, Tag, Trial};
-use crate::trial::{Home, Settings};
+use crate::simulation::{Home, Settings};
 
 /// The scores of one group of descriptions. A stage that no record has reached is not counted.
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]

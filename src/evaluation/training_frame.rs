@@ -8,7 +8,7 @@ use crate::files::{FileError, write_file};
 use crate::frame::grey_png;
 use crate::geometry::Pose;
 use crate::perception::FrameFiles;
-use crate::world::training::{TrueItem, frame};
+use crate::simulation::training::{TrueItem, frame};
 
 /// One line of `index.jsonl`.
 #[derive(Serialize)]

@@ -3,11 +3,17 @@
 //! The type that cameras, recordings and perception share; nothing here knows
 //! where a frame comes from or what is in it.
 
+mod camera;
 mod decode;
+mod mount;
+mod placing;
 mod png;
 mod projection;
 
+pub use camera::Camera;
 pub use decode::{Picture, decode_color, decode_depth};
+pub use mount::CameraMount;
+pub use placing::{inverse, placed};
 pub use png::{grey_png, rgb_png};
 
 /// Focal lengths and principal point of a pinhole camera, pixels.

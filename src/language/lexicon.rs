@@ -6,8 +6,8 @@ use std::sync::OnceLock;
 
 use super::morphology::singulars;
 use super::relations::Relations;
-use super::spelling;
 use super::units::NounUnit;
+use super::vocabulary::{NounClass, Vocabulary, nearest};
 use super::word_class::{Class, Role, Roles};
 
 /// A noun: its name in lower_snake, its class, and the noun it is a kind of.
@@ -214,14 +214,28 @@ impl Lexicon {
         self.starts.get(start).copied().unwrap_or(1)
     }
 
-    /// The known word that a word misspells, when it is no word of English and near enough to one.
-    pub fn mended(&self, word: &str) -> Option<&str> {
-        spelling::nearest(word, self.names.keys().filter(|name| !name.contains(' ')).map(String::as_str))
+    /// The noun that a word misspells: the nearest, then the first of the file. A word of English misspells nothing.
+    /// Linear in the lexicon, so only for words nothing else explains.
+    pub fn mended(&self, word: &str) -> Option<&Noun> {
+        if Vocabulary::embedded().is_english(word) {
+            return None;
+        }
+        let names = self.names.iter().map(|(name, index)| (name.as_str(), *index));
+        nearest(word, names).map(|index| &self.nouns[index])
     }
 
-    /// What kind of thing an English noun names that the lexicon does not have.
-    pub fn inferred(&self, _lower: &str) -> Option<NounUnit<'_>> {
-        None
+    /// What an English noun that the lexicon lacks most likely names.
+    pub fn inferred(&self, lower: &str) -> Option<NounUnit<'static>> {
+        if !lower.as_bytes().first().is_some_and(u8::is_ascii_lowercase) {
+            return None;
+        }
+        let noun = Vocabulary::embedded().noun(lower)?;
+        let class = match noun.class {
+            NounClass::BodyPart => return None,
+            NounClass::Person => Class::Person,
+            other => other.class()?,
+        };
+        Some(NounUnit { name: noun.singular, class, plural: noun.singular != lower, inferred: true })
     }
 
     /// The phrases that relate one thing to another.

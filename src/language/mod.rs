@@ -24,12 +24,12 @@ mod numbers;
 mod phrases;
 mod relations;
 mod room_pick;
-mod spelling;
 mod stage;
 mod subjects;
 pub mod tokens;
 mod tree;
 mod units;
+mod vocabulary;
 mod word_class;
 mod zones;
 
@@ -40,6 +40,7 @@ pub use phrases::{Act, From, Kind, Phrase, Reading, Recipient};
 pub use relations::Relation;
 pub use room_pick::{RoomPick, is_lead};
 pub use stage::Chunker;
+pub use vocabulary::{DamagedTable, NounClass, Vocabulary, VocabularyNoun};
 pub use units::{NounUnit, Unit, tag as tag_words, units};
 pub use word_class::{Class, Role};
 

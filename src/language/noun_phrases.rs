@@ -346,7 +346,7 @@ impl<'u> Reader<'u> {
 /// Whether a word that the lexicon does not have names a kind rather than describes: "gaming", "alphabet".
 fn names_kind(unit: &Unit) -> bool {
     let noun = unit.noun.is_some_and(|noun| noun.class == Class::Object) && !unit.has(Role::Adjective);
-    noun || unit.is_unknown() && !describes_by_ending(&unit.lower)
+    noun || unit.is_unknown() && !unit.foreign && !describes_by_ending(&unit.lower) || unit.foreign && unit.lower.ends_with("ing")
 }
 
 fn describes_by_ending(word: &str) -> bool {

@@ -8,6 +8,7 @@ use std::borrow::Cow;
 use super::lexicon::Lexicon;
 use super::numbers;
 use super::tokens::Word;
+use super::vocabulary::Vocabulary;
 use super::word_class::{Class, Role, Roles};
 use crate::record::Token;
 
@@ -32,6 +33,8 @@ pub struct Unit<'t> {
     pub number: Option<f64>,
     /// It was written otherwise.
     pub mended: bool,
+    /// A word of English that is neither in the lexicon nor the name of a thing: it describes, or does.
+    pub foreign: bool,
 }
 
 /// A noun as it stands in the text.
@@ -121,7 +124,7 @@ fn known<'l>(lower: &str, lexicon: &'l Lexicon) -> Option<Known<'l>> {
 
 fn unit<'l>(lower: Cow<'l, str>, known: Known<'l>, mended: bool) -> Unit<'l> {
     let Known { noun, roles, stop, number } = known;
-    Unit { first: 0, past: 0, lower, noun, roles, stop, pause: false, number, mended }
+    Unit { first: 0, past: 0, lower, noun, roles, stop, pause: false, number, mended, foreign: false }
 }
 
 /// "Theres" is two words written as one.
@@ -163,7 +166,9 @@ fn longest<'l>(words: &[Word<'l>], at: usize, lexicon: &'l Lexicon) -> Unit<'l> 
         Some(found) => (lower.clone(), found, false),
         None => otherwise(lower, lexicon).unwrap_or_else(|| (lower.clone(), Known::default(), false)),
     };
-    Unit { first: at, past: at + 1, ..unit(meant, found, mended) }
+    let nothing = found.noun.is_none() && found.roles.is_empty() && !found.stop;
+    let foreign = nothing && Vocabulary::embedded().is_english(&meant);
+    Unit { first: at, past: at + 1, foreign, ..unit(meant, found, mended) }
 }
 
 /// A word that the lexicon has under another spelling: with a space for a hyphen, as listed, or one slip away.
@@ -189,8 +194,9 @@ fn otherwise<'l>(lower: &str, lexicon: &'l Lexicon) -> Option<(Cow<'l, str>, Kno
     if let Some(meant) = lexicon.spelling(lower) {
         return Some((Cow::Borrowed(meant), known(meant, lexicon).unwrap_or_default(), true));
     }
-    let meant = lexicon.mended(lower)?;
-    Some((Cow::Borrowed(meant), known(meant, lexicon)?, true))
+    let noun = lexicon.mended(lower)?;
+    let found = NounUnit { name: &noun.name, class: noun.class, plural: false, inferred: false };
+    Some((Cow::Borrowed(&noun.name), Known { noun: Some(found), ..Known::default() }, true))
 }
 
 /// Fillers say nothing; an addressee does only in "brian 's left", where the clitic goes with it.

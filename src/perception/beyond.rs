@@ -61,8 +61,9 @@ mod tests {
 
     use super::*;
     use crate::geometry::Pose;
-    use crate::world::camera::{Kinect, SolidScene};
-    use crate::world::{RoomMap, Scene};
+    use crate::map::RoomMap;
+    use crate::simulation::Scene;
+    use crate::simulation::camera::{Kinect, SolidScene};
 
     /// Whether what shows of the item or object `id` over `outline` goes on beyond that, seen from beside the nightstand.
     fn seen(id: &str, outline: &Polygon) -> bool {

@@ -2,6 +2,7 @@
 
 use super::footprint::Footprint;
 use super::measures::{Measured, Measures};
+use crate::catalogue;
 
 /// Attributes and reasons.
 pub fn describe(measured: &Measured, category: &str, whole: &Footprint) -> (Vec<String>, String) {
@@ -12,15 +13,15 @@ pub fn describe(measured: &Measured, category: &str, whole: &Footprint) -> (Vec<
 fn attributes(m: &Measures, category: &str, whole: &Footprint) -> Vec<String> {
     let (long, short) = (whole.length.max(whole.width), whole.length.min(whole.width));
     let mut words = vec![color_word(m.color)];
-    let table = matches!(category, "table" | "coffee_table" | "stool");
-    if table && m.rectangularity < 0.86 && long < 1.25 * short {
+    let may = catalogue::category(category).map(|row| row.looks).unwrap_or_default();
+    if may.round && m.rectangularity < 0.86 && long < 1.25 * short {
         words.push("round");
     }
-    match category {
-        "table" | "desk" | "coffee_table" if long > 2.0 * short => words.push("long"),
-        "table" | "coffee_table" if long * short < 0.4 => words.push("small"),
-        "wardrobe" | "bookshelf" | "shelf" | "lamp" if m.height > 1.4 => words.push("tall"),
-        _ => {}
+    match () {
+        () if may.long && long > 2.0 * short => words.push("long"),
+        () if may.small && long * short < 0.4 => words.push("small"),
+        () if may.tall && m.height > 1.4 => words.push("tall"),
+        () => {}
     }
     words.into_iter().map(str::to_string).collect()
 }

@@ -11,7 +11,7 @@ use super::items::parts_of_items;
 use super::joining::Joining;
 use super::measures::{Measured, measure};
 use super::model::{CATEGORIES, Model, NOTHING};
-use super::objects::{HOLDERS, sightings};
+use super::objects::{may_hold, sightings};
 use super::patches::patches;
 use super::points::{Points, points};
 use super::reconsider::reconsider;
@@ -19,10 +19,12 @@ use super::segment::{Segment, Segments, segments};
 use super::tabletop::things;
 use super::walls::{Wall, furniture_cells, walls};
 use super::{ObjectSighting, View};
+use crate::catalogue::OBJECTS;
+use crate::catalogue::{self, Orientation};
 use crate::frame::RgbdFrame;
 use crate::geometry::{Polygon, Pose, wrap_angle};
+use crate::map::RoomMap;
 use crate::record::Detection;
-use crate::world::{OBJECTS, RoomMap};
 
 /// Two sightings of one name nearer than this are of one object, metres.
 const SAME_M: f64 = 0.15;
@@ -48,7 +50,7 @@ impl Default for Detector {
 }
 
 /// One frame taken apart.
-pub(super) struct Parts {
+pub(crate) struct Parts {
     pub points: Points,
     pub grid: FloorGrid,
     pub walls: Vec<Wall>,
@@ -56,7 +58,7 @@ pub(super) struct Parts {
 }
 
 /// A frame's points, floor and walls.
-pub(super) fn room(frame: &RgbdFrame, map: Option<&RoomMap>) -> (Points, FloorGrid, Vec<Wall>) {
+pub(crate) fn room(frame: &RgbdFrame, map: Option<&RoomMap>) -> (Points, FloorGrid, Vec<Wall>) {
     let points = points(frame);
     let grid = project(frame, &points);
     let walls = walls(&grid, &points, map);
@@ -64,7 +66,7 @@ pub(super) fn room(frame: &RgbdFrame, map: Option<&RoomMap>) -> (Points, FloorGr
 }
 
 /// A frame as far as it can be read without a model.
-pub(super) fn surfaces(frame: &RgbdFrame, map: Option<&RoomMap>) -> (Points, FloorGrid, Vec<Wall>, Joining) {
+pub(crate) fn surfaces(frame: &RgbdFrame, map: Option<&RoomMap>) -> (Points, FloorGrid, Vec<Wall>, Joining) {
     let (points, grid, walls) = room(frame, map);
     let (patches, patch_of) = patches(&grid, &furniture_cells(&grid, &walls));
     let joining = Joining::new(&grid, patches, &patch_of);
@@ -72,7 +74,7 @@ pub(super) fn surfaces(frame: &RgbdFrame, map: Option<&RoomMap>) -> (Points, Flo
 }
 
 /// Takes a frame apart into pieces; with a classifier pieces that only together look like something are joined too.
-pub(super) fn parts(frame: &RgbdFrame, map: Option<&RoomMap>, joins: &Forest, category: Option<&Forest>) -> Parts {
+pub(crate) fn parts(frame: &RgbdFrame, map: Option<&RoomMap>, joins: &Forest, category: Option<&Forest>) -> Parts {
     let (points, grid, walls, mut joining) = surfaces(frame, map);
     joining.run(joins);
     joining.bridge(&grid);
@@ -169,7 +171,7 @@ impl Detector {
     /// The quarter turn from the rectangle's heading to the front.
     fn front(&self, facings: &[Facing; 4], category: &str) -> usize {
         // A table's heading is that of its long side: it ends at the short edge.
-        if matches!(category, "table" | "coffee_table" | "desk" | "stool" | "lamp") {
+        if catalogue::category(category).is_none_or(|row| row.orientation != Orientation::Facing) {
             return 0;
         }
         let chance = |i: &usize| self.model.front.probabilities(&facings[*i].features)[1];
@@ -179,7 +181,7 @@ impl Detector {
 
 /// How likely a piece is one on which things are looked for.
 fn holder_chance(chances: &[f32]) -> f32 {
-    CATEGORIES.iter().zip(chances).filter(|(category, _)| HOLDERS.contains(category)).map(|(_, chance)| chance).sum()
+    CATEGORIES.iter().zip(chances).filter(|(category, _)| may_hold(category)).map(|(_, chance)| chance).sum()
 }
 
 fn detection(measured: &Measured, whole: Footprint, chances: &[f32], best: usize, camera: Pose) -> Detection {
@@ -196,7 +198,9 @@ fn detection(measured: &Measured, whole: Footprint, chances: &[f32], best: usize
         scores: likely.map(|i| (CATEGORIES[i].to_string(), score(i))).collect(),
         x: pose.x,
         y: pose.y,
-        yaw: (!matches!(category, "stool" | "lamp")).then_some(pose.heading),
+        yaw: catalogue::category(category)
+            .is_some_and(|row| row.orientation != Orientation::None)
+            .then_some(pose.heading),
         length: whole.length,
         width: whole.width,
         height: measured.measures.height,
@@ -225,7 +229,7 @@ pub fn overlap(a: &Detection, b: &Detection) -> f64 {
 }
 
 /// Detections are written to a tenth of a millimetre.
-pub(super) fn rounded(mut detection: Detection) -> Detection {
+pub(crate) fn rounded(mut detection: Detection) -> Detection {
     let four = |v: f64| crate::record::Rounded(v).value();
     for value in
         [&mut detection.x, &mut detection.y, &mut detection.length, &mut detection.width, &mut detection.height]

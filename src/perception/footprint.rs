@@ -2,8 +2,8 @@
 
 use super::front::Hidden;
 use super::walls::Wall;
+use crate::catalogue::Size;
 use crate::geometry::{Pose, vec2};
-use crate::world::Size;
 
 /// How near a size must be to what is seen to count in full, metres.
 const AGREEMENT_M: f64 = 0.12;

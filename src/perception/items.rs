@@ -6,10 +6,10 @@ use super::patches::Sums;
 use super::points::{Points, STRIDE};
 use super::segment::segments;
 use crate::frame::RgbdFrame;
-use crate::world::RoomMap;
+use crate::map::RoomMap;
 
 /// A frame cut into the items that its pixels are said to belong to, in one pass; 0 is no item.
-pub(super) fn parts_of_items(frame: &RgbdFrame, map: Option<&RoomMap>, item_of: &[u16]) -> Parts {
+pub(crate) fn parts_of_items(frame: &RgbdFrame, map: Option<&RoomMap>, item_of: &[u16]) -> Parts {
     let (points, grid, walls) = room(frame, map);
     let mut groups: Vec<(Vec<u32>, Sums)> = Vec::new();
     for (cell, item) in item_of_cells(frame, &points, &grid, item_of).into_iter().enumerate() {

@@ -6,44 +6,39 @@
 //! patches into pieces (`joining`), another names them by what is measured of
 //! them (`measures`), a third tells their fronts (`front`); footprints are
 //! completed by what such pieces measure (`footprint`). All three are learned
-//! from rooms of our own ([`training`]). [`FurnitureMap`] fuses views.
+//! from rooms of our own (`simulation::training`). [`FurnitureMap`] fuses views.
 //!
-//! The executive sees only [`Eyes`]. [`truth`], [`boxes`] and [`simulated`] are
-//! the eyes of the simulated robot, from ideal to nothing true; they are the
-//! only places here that may look at the scene.
+//! The executive sees only [`Eyes`]. What it sees comes from pictures only: nothing here can name the scene, and the
+//! eyes of the simulated robot are in `simulation::eyes`.
 
 mod beyond;
-pub mod boxes;
 mod describe;
-mod detector;
+pub(crate) mod detector;
 mod external;
-mod floor;
-mod floor_grid;
-mod footprint;
-mod forest;
+pub(crate) mod floor;
+pub(crate) mod floor_grid;
+pub(crate) mod footprint;
+pub(crate) mod forest;
 mod frame_files;
-mod front;
+pub(crate) mod front;
 mod fusion;
-mod items;
-mod joining;
-mod measures;
-mod model;
+pub(crate) mod items;
+pub(crate) mod joining;
+pub(crate) mod measures;
+pub(crate) mod model;
 pub mod objects;
 mod overlay;
-mod patches;
+pub(crate) mod patches;
 mod picture_files;
-mod points;
+pub(crate) mod points;
 mod reconsider;
 mod rectangle;
-mod scenes;
-mod segment;
-pub mod simulated;
+pub(crate) mod scenes;
+pub(crate) mod segment;
 mod stage;
-mod tabletop;
-pub mod training;
-pub mod truth;
+pub(crate) mod tabletop;
 mod upright;
-mod walls;
+pub(crate) mod walls;
 
 pub use detector::Detector;
 pub use external::{ExternalDetector, ExternalError};

@@ -3,8 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use super::forest::{Forest, take};
-use crate::world::Size;
-use crate::world::families::FAMILIES;
+use crate::catalogue::{FAMILIES, Size};
 
 /// The first bytes of a model file.
 const MAGIC: &[u8; 8] = b"SFPERC02";

@@ -8,14 +8,11 @@ use std::ops::{Range, RangeInclusive};
 
 use super::ObjectSighting;
 use super::beyond::goes_on_beyond;
+use crate::catalogue::{CATEGORIES, Holds, OBJECTS, SmallObject};
 use crate::frame::RgbdFrame;
 use crate::geometry::{Polygon, Vec2, vec2};
 use crate::record::Detection;
-use crate::world::{OBJECTS, SmallObject};
 
-/// On which furniture things are looked for.
-pub const HOLDERS: [&str; 9] =
-    ["table", "dinner_table", "coffee_table", "desk", "nightstand", "dresser", "cabinet", "tv_stand", "stool"];
 /// What is this likely to be one of them is looked at: a statue on a small table passes for a chair's back.
 const LIKELY: f64 = 0.08;
 /// Plates lie between these heights, metres.
@@ -92,7 +89,13 @@ pub fn sightings(frame: &RgbdFrame, furniture: &[Detection]) -> Vec<ObjectSighti
 /// Whether it may be a table or a chest: on beds and seats cushions would pass for things.
 fn may_hold_things(detection: &Detection) -> bool {
     let share = |name: &str| detection.scores.get(name).copied().unwrap_or(0.0);
-    HOLDERS.contains(&detection.category.as_str()) || HOLDERS.iter().map(|name| share(name)).sum::<f64>() > LIKELY
+    let holders = CATEGORIES.iter().filter(|row| row.name == row.noun && row.holds != Holds::Never);
+    may_hold(&detection.category) || holders.map(|row| share(row.name)).sum::<f64>() > LIKELY
+}
+
+/// Whether things are looked for on furniture of that category.
+pub fn may_hold(category: &str) -> bool {
+    CATEGORIES.iter().any(|row| row.noun == category && row.holds != Holds::Never)
 }
 
 fn on_top(frame: &RgbdFrame, detection: &Detection) -> Vec<ObjectSighting> {
@@ -333,12 +336,14 @@ mod tests {
     use rand_chacha::rand_core::SeedableRng;
 
     use super::*;
+    use crate::frame::Camera;
     use crate::geometry::Pose;
+    use crate::map::RoomMap;
     use crate::perception::Eyes;
-    use crate::perception::truth::TruthEyes;
-    use crate::robot::simulated::Truth;
-    use crate::world::camera::{Camera, Kinect, SolidScene};
-    use crate::world::{RoomMap, Scene};
+    use crate::simulation::Scene;
+    use crate::simulation::base::Truth;
+    use crate::simulation::camera::{Kinect, SolidScene};
+    use crate::simulation::eyes::truth::TruthEyes;
 
     /// What is recognised on the furniture `on`, seen from 1.3 m to its east.
     fn recognised(on: &str) -> Vec<String> {

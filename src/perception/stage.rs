@@ -7,8 +7,8 @@ use super::external::ExternalDetector;
 use super::{Detector, FrameFiles, View, check, overlay};
 use crate::files::write_file;
 use crate::frame::RgbdFrame;
+use crate::map::RoomMap;
 use crate::record::{Detection, Note, Record, Stage, StageError};
-use crate::world::RoomMap;
 
 /// Finds furniture in frames, from files or from anywhere else.
 #[derive(Clone, Debug, Default)]

@@ -113,8 +113,9 @@ fn through_three(points: &[Point], rng: &mut ChaCha8Rng) -> Option<Floor> {
 mod tests {
     use super::*;
     use crate::geometry::Pose;
-    use crate::world::camera::{Kinect, SolidScene};
-    use crate::world::{RoomMap, Scene};
+    use crate::map::RoomMap;
+    use crate::simulation::Scene;
+    use crate::simulation::camera::{Kinect, SolidScene};
 
     #[test]
     fn the_tower_s_height_and_tilt_are_read_off_the_floor() {

@@ -3,7 +3,7 @@
 use super::floor_grid::{CELL_M, FloorGrid};
 use super::points::Points;
 use crate::geometry::{Pose, Vec2, cross, distance_to_segment, vec2};
-use crate::world::RoomMap;
+use crate::map::RoomMap;
 
 /// Steps of direction in half a turn, and the width of a step of distance, metres.
 const DIRECTIONS: usize = 120;

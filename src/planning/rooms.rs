@@ -1,7 +1,7 @@
 //! Which room was meant: by name, by synonym, by side as seen from the start pose.
 
+use crate::map::RoomMap;
 use crate::record::{Direction, RoomSlot};
-use crate::world::RoomMap;
 
 /// The room to enter, the rooms to try after it, and what did not fit.
 #[derive(Debug, Default, PartialEq)]

@@ -3,8 +3,8 @@
 use super::actions::actions_for;
 use super::rooms::choose_room;
 use crate::language::Lexicon;
+use crate::map::RoomMap;
 use crate::record::{Action, Direction, Grounding, Note, Plan, Record, Stage, StageError};
-use crate::world::RoomMap;
 
 /// Makes plans for one room map.
 #[derive(Debug)]

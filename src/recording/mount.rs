@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use super::sensed::Transform;
 use super::timed_frame::optical_from_link;
 use super::transform_tree::{Placed, TransformTree, Unplaced};
-use crate::world::camera::Camera;
+use crate::frame::Camera;
 
 /// Odometry kept beside the transforms, which go before it.
 #[derive(Clone, Debug, Default)]

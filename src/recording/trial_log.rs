@@ -15,8 +15,8 @@ use super::time::{nanoseconds, timestamp};
 use super::timed_frame::in_space;
 use super::trial_sinks::TrialSinks;
 use super::{LogError, Target, TimedFrame};
+use crate::frame::Camera;
 use crate::geometry::{ClearanceGrid, Pose, Vec2};
-use crate::world::camera::Camera;
 
 /// The log is handed to the disk at least this often, seconds of the trial.
 const FLUSH_S: f64 = 1.0;

@@ -4,7 +4,6 @@
 
 pub mod arcos;
 pub mod p3dx;
-pub mod simulated;
 pub mod sonar;
 
 use crate::geometry::{Pose, Vec2, vec2};

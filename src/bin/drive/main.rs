@@ -12,8 +12,8 @@ use clap::Parser;
 use spatial_fetch::cli::{
     self, Common, Exit, EyeArguments, Failure, FromLog, HomeArguments, Intake, Program, Reporter,
 };
-use spatial_fetch::record::{Stage, Trial};
-use spatial_fetch::trial::{Driver, Home, NoiseLevel, Settings};
+use spatial_fetch::record::Trial;
+use spatial_fetch::simulation::{Driver, NoiseLevel, Settings};
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
 ///
@@ -73,10 +73,13 @@ impl Arguments {
     }
 
     fn drive(self, reporter: Reporter) -> Result<Exit, Failure> {
-        let home = self.home()?;
         if self.robot.serves() {
-            return self.robot.run_served(&home, &reporter, self.common.seed);
+            return self.robot.run_served(&self.home.load()?, &reporter, self.common.seed);
         }
+        if self.robot.is_real() {
+            return self.drive_real(reporter);
+        }
+        let home = self.home.load()?;
         let settings = Settings {
             options: self.executive.options(),
             perception: self.eyes.perception,
@@ -87,26 +90,24 @@ impl Arguments {
         let watched = self.outputs.is_live();
         let outputs = self.outputs.outputs(self.common.force, replay::recorded_line()?, &reporter)?;
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
-        let (driver, common): (Box<dyn Stage>, Common) = if self.robot.is_real() {
-            // One robot, one plan at a time.
-            let common = Common { jobs: 1, ..self.common };
-            let to_stdout = common.output.is_none();
-            let driver = self.robot.driver(home.map, settings, outputs, reporter)?;
-            (Box::new(driver.while_heard(move || to_stdout && cli::is_output_closed())), common)
-        } else {
-            // Nobody watches two trials at once.
-            let common = if watched { Common { jobs: 1, ..self.common } } else { self.common };
-            (Box::new(Driver { home, settings, outputs }), common)
-        };
-        cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, driver.as_ref())
+        // Nobody watches two trials at once.
+        let common = if watched { Common { jobs: 1, ..self.common } } else { self.common };
+        let driver = Driver { home, settings, outputs };
+        cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, &driver)
     }
 
-    /// What is known of where the robot is: of a real one, the rooms alone.
-    fn home(&self) -> Result<Home, Failure> {
-        if self.robot.is_real() && !self.robot.serves() {
-            return self.home.rooms().map(Home::unfurnished);
-        }
-        self.home.load()
+    /// Drives a real robot, of whose home the rooms alone are known.
+    fn drive_real(self, reporter: Reporter) -> Result<Exit, Failure> {
+        let map = self.home.rooms()?;
+        let options = self.executive.options();
+        let outputs = self.outputs.outputs(self.common.force, replay::recorded_line()?, &reporter)?;
+        let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
+        // One robot, one plan at a time.
+        let common = Common { jobs: 1, ..self.common };
+        let to_stdout = common.output.is_none();
+        let driver = self.robot.driver(map, options, outputs, reporter)?;
+        let driver = driver.while_heard(move || to_stdout && cli::is_output_closed());
+        cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, &driver)
     }
 }
 

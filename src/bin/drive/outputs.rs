@@ -8,7 +8,7 @@ use std::sync::Arc;
 use clap::Args;
 use spatial_fetch::cli::{Failure, Reporter};
 use spatial_fetch::recording::Live;
-use spatial_fetch::trial::Outputs;
+use spatial_fetch::recording::Outputs;
 
 use crate::number::within;
 

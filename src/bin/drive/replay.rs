@@ -9,8 +9,8 @@ use std::path::Path;
 use clap::{ArgAction, ArgMatches, CommandFactory, FromArgMatches};
 use serde::{Deserialize, Serialize};
 use spatial_fetch::cli::Failure;
+use spatial_fetch::recording::OPTIONS_TOPIC;
 use spatial_fetch::recording::{LogReader, RecordReader, Window};
-use spatial_fetch::trial::OPTIONS_TOPIC;
 
 use crate::Arguments;
 

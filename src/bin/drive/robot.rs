@@ -5,14 +5,18 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
+use spatial_fetch::behavior::Options;
 use spatial_fetch::cli::{Exit, Failure, Reporter, on_interrupt};
+use spatial_fetch::field::{NoEyes, RealDriver, StreamEyes, Tell};
 use spatial_fetch::perception::Eyes;
+use spatial_fetch::recording::Outputs;
 use spatial_fetch::robot::arcos::client::{ArcosBase, Settings};
-use spatial_fetch::robot::arcos::line::{Address, DryLine, Line};
+use spatial_fetch::robot::arcos::line::{Address, Line};
 use spatial_fetch::robot::arcos::parameters::Parameters;
-use spatial_fetch::robot::arcos::server::{ServeAddress, ServerSettings};
 use spatial_fetch::robot::p3dx::SonarArray;
-use spatial_fetch::trial::{Home, NoEyes, Outputs, RealDriver, Served, StreamEyes, Tell};
+use spatial_fetch::simulation::arcos::DryLine;
+use spatial_fetch::simulation::arcos::{ServeAddress, ServerSettings};
+use spatial_fetch::simulation::{Home, Served};
 
 use crate::number::within;
 
@@ -103,7 +107,7 @@ impl Arguments {
         let Some(address) = self.serve else { return Ok(Exit::Done) };
         let settings = ServerSettings { watchdog: Duration::from_millis(self.watchdog), ..ServerSettings::default() };
         let served = Served { address, settings, camera: self.camera_out, truth: self.truth_out, seed };
-        let stop = spatial_fetch::trial::served_until_interrupted();
+        let stop = spatial_fetch::simulation::served_until_interrupted();
         let closing = stop.clone();
         on_interrupt(move || closing.stop());
         let run = served.run(home, || stop.goes_on(), |text| reporter.remark(text));
@@ -114,8 +118,8 @@ impl Arguments {
     /// Connects to the robot.
     pub fn driver(
         self,
-        map: spatial_fetch::world::RoomMap,
-        settings: spatial_fetch::trial::Settings,
+        map: spatial_fetch::map::RoomMap,
+        options: Options,
         outputs: Outputs,
         reporter: Reporter,
     ) -> Result<RealDriver, Failure> {
@@ -124,7 +128,7 @@ impl Arguments {
             .map_err(|error| Failure::Failed(error.to_string()))?;
         let tell: Tell = Arc::new(move |text: &str| reporter.remark(text));
         let eyes = self.eyes(&map, &base, &tell)?;
-        let driver = RealDriver::new(Home::unfurnished(map), settings, outputs, base, eyes, tell);
+        let driver = RealDriver::new(map, options, outputs, base, eyes, tell);
         let interrupter = driver.interrupter();
         on_interrupt(move || interrupter.stop());
         Ok(driver)
@@ -132,7 +136,7 @@ impl Arguments {
 
     fn eyes(
         &self,
-        map: &spatial_fetch::world::RoomMap,
+        map: &spatial_fetch::map::RoomMap,
         base: &ArcosBase,
         tell: &Tell,
     ) -> Result<Box<dyn Eyes + Send>, Failure> {

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, HomeArguments};
 use spatial_fetch::evaluation::behavior::{Selection, Source, Study, behavior_tables, conditions, instructions};
-use spatial_fetch::trial::{Home, NoiseLevel, Settings};
-use spatial_fetch::world::Scene;
+use spatial_fetch::simulation::Scene;
+use spatial_fetch::simulation::{Home, NoiseLevel, Settings};
 
 use crate::{Reads, Subcommand};
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, HomeArguments};
 use spatial_fetch::evaluation::{Measure, Wanted, blame, blame_text};
-use spatial_fetch::trial::{Perception, Settings};
+use spatial_fetch::simulation::{Perception, Settings};
 
 use crate::{Reads, Subcommand};
 

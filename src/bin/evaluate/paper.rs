@@ -6,8 +6,9 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Reporter};
 use spatial_fetch::evaluation::{Experiments, Paper, paper_csv, paper_text, write_report};
 use spatial_fetch::files::refuse_existing;
-use spatial_fetch::trial::{Home, Perception, Settings};
-use spatial_fetch::world::{RoomMap, Scene};
+use spatial_fetch::map::RoomMap;
+use spatial_fetch::simulation::Scene;
+use spatial_fetch::simulation::{Home, Perception, Settings};
 
 use crate::{Reads, Subcommand};
 

@@ -8,8 +8,8 @@ use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure};
 use spatial_fetch::evaluation::robustness::{
     Experiment, Robustness, gold_homes, homes, own_homes, placements, read_gold_lines, read_texts,
 };
-use spatial_fetch::trial::{Home, Settings};
-use spatial_fetch::world::arrange::Relations;
+use spatial_fetch::simulation::arrange::Relations;
+use spatial_fetch::simulation::{Home, Settings};
 
 use crate::{Reads, Subcommand};
 

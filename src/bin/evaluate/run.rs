@@ -6,7 +6,7 @@ use clap::Args;
 use spatial_fetch::behavior::Options;
 use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, HomeArguments, Table};
 use spatial_fetch::evaluation::{run_corpus, score};
-use spatial_fetch::trial::Settings;
+use spatial_fetch::simulation::Settings;
 
 use crate::{Reads, Subcommand};
 

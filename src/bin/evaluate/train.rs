@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::Args;
 use spatial_fetch::cli::{Common, Exit, Failure};
 use spatial_fetch::files::write_file;
-use spatial_fetch::perception::training::{Schooling, train};
+use spatial_fetch::simulation::training::learning::{Schooling, train};
 
 use crate::{Reads, Subcommand};
 

@@ -3,7 +3,7 @@
 use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, HomeArguments};
 use spatial_fetch::evaluation::{what_if, what_if_text};
-use spatial_fetch::trial::Settings;
+use spatial_fetch::simulation::Settings;
 
 use crate::{Reads, Subcommand};
 

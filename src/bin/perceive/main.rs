@@ -8,9 +8,9 @@ use std::sync::Arc;
 
 use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, FrameInput, FromLog, Intake, Program};
+use spatial_fetch::map::load_map;
 use spatial_fetch::perception::{Detector, ExternalDetector, Model, Perceiver};
 use spatial_fetch::record::Detection;
-use spatial_fetch::world::load_map;
 
 /// Finds furniture with pose in RGB-D frames.
 ///

@@ -6,7 +6,7 @@ use super::Instruction;
 use crate::behavior::{Options, Silent};
 use crate::geometry::Pose;
 use crate::record::{Outcome, Trial};
-use crate::trial::{Home, Settings, run, stream_of};
+use crate::simulation::{Home, Settings, run, stream_of};
 
 /// One column of figures: a home, and what the executive may do in it.
 #[derive(Clone, Debug)]

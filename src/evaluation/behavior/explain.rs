@@ -13,8 +13,8 @@ use crate::evaluation::Rate;
 use crate::geometry::Pose;
 use crate::language::Lexicon;
 use crate::record::{Action, Frame, Plan, SearchPair};
-use crate::trial::{Home, ideal_detection};
-use crate::world::Item;
+use crate::simulation::Item;
+use crate::simulation::{Home, ideal_detection};
 
 /// Most choices of frames looked at: four frames for each of three pairs.
 const MOST_CHOICES: usize = 64;

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use crate::evaluation::Gold;
 use crate::grounding::{Grounder, Method};
 use crate::language::chunk_text;
+use crate::map::RoomMap;
 use crate::planning::Planner;
 use crate::record::{Grounding, Plan};
-use crate::world::RoomMap;
 
 /// Where the instructions come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]

@@ -2,7 +2,7 @@
 
 use super::{BehaviorReport, Condition, ConditionReport, Fall, Instruction, drive_all, explain};
 use crate::behavior::Options;
-use crate::trial::{Home, Settings};
+use crate::simulation::{Home, Settings};
 
 /// What is driven.
 #[derive(Clone, Debug)]

@@ -17,8 +17,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Gold, Measure, Pipeline};
+use crate::behavior::Run;
 use crate::record::{Grounding, Plan};
-use crate::trial::{Home, Perception, Run, Settings};
+use crate::simulation::{Home, Perception, Settings};
 
 /// A stage that can be replaced by gold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]

@@ -1,7 +1,7 @@
 //! Plans as someone would make them who sees the home: the right room, each relation in one frame.
 
 use crate::record::{Action, Frame, Plan};
-use crate::trial::Home;
+use crate::simulation::Home;
 
 /// The plans that read all relations to furniture in one frame, in the room of the wanted furniture.
 pub(super) fn plans(home: &Home, plan: &Plan, wanted: &[String]) -> Vec<Plan> {

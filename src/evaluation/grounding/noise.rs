@@ -16,7 +16,7 @@ use super::counts::{MeaningRates, judge};
 use super::{Experiment, understand};
 use crate::grounding::Grounder;
 use crate::record::{Grounding, Rounded};
-use crate::trial::stream_of;
+use crate::simulation::stream_of;
 
 /// Words that sound alike: said, heard.
 const HOMOPHONES: [(&str, &str); 30] = [

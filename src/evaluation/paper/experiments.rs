@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::figures;
 use super::{Cell, Column, Paper, PaperTable, Row, Source};
 use crate::behavior::Options;
+use crate::behavior::Run;
 use crate::evaluation::behavior::{
     Condition, Score, Selection, Source as Instructions, drive_all, instructions, lacking,
 };
@@ -16,7 +17,7 @@ use crate::grounding::paper::{Model, Options as ModelOptions};
 use crate::grounding::{Grounder, Method};
 use crate::language::chunk_text;
 use crate::record::Record;
-use crate::trial::{Home, Run, Settings};
+use crate::simulation::{Home, Settings};
 
 /// One trial from the text, to be shown.
 pub struct Case<'g> {

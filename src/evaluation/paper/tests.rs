@@ -2,8 +2,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
 use crate::evaluation::{Gold, read_gold};
-use crate::trial::{Home, Settings};
-use crate::world::{RoomMap, Scene};
+use crate::map::RoomMap;
+use crate::simulation::Scene;
+use crate::simulation::{Home, Settings};
 
 fn few() -> Vec<Gold> {
     let gold = read_gold(include_str!("../../../corpus/templates.jsonl"), "templates.jsonl").expect("a sound corpus");

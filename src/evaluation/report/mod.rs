@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use super::{Case, Paper};
 use crate::files::{FileError, write_file};
-use crate::trial::Home;
+use crate::simulation::Home;
 
 /// Writes `index.html` into a folder and returns its path.
 pub fn write_report(
@@ -47,8 +47,9 @@ fn page(paper: &Paper, cases: &[Case], homes: &[Home; 2]) -> String {
 mod tests {
     use super::*;
     use crate::evaluation::{Experiments, read_gold};
-    use crate::trial::Settings;
-    use crate::world::{RoomMap, Scene};
+    use crate::map::RoomMap;
+    use crate::simulation::Scene;
+    use crate::simulation::Settings;
 
     #[test]
     fn the_page_is_whole_fetches_nothing_and_cannot_be_broken_by_words() {

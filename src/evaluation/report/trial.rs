@@ -6,7 +6,8 @@ use base64::engine::general_purpose::STANDARD;
 use super::html::escaped;
 use crate::evaluation::{Case, meaning_phrase};
 use crate::record::{Chunk, Outcome};
-use crate::trial::{Home, Outputs};
+use crate::recording::Outputs;
+use crate::simulation::Home;
 
 /// Failed, then wrong first, then good.
 pub(super) fn rank(case: &Case) -> usize {
@@ -61,7 +62,7 @@ fn picture(media: &str, bytes: &[u8], alternative: &str, caption: &str) -> Strin
 
 fn way(case: &Case, home: &Home) -> String {
     let trial = &case.run.trial;
-    let svg = Outputs::draw_plot(home, &case.run, &case.gold.text);
+    let svg = Outputs::draw_plot(&home.map, &home.pieces(), &case.run, &case.gold.text);
     let visited =
         if trial.approached.is_empty() { "no furniture".to_string() } else { trial.approached.join(", then ") };
     let alternative =
@@ -70,7 +71,7 @@ fn way(case: &Case, home: &Home) -> String {
 }
 
 fn last_picture(case: &Case, home: &Home) -> String {
-    let png = Outputs::take_picture(home, &case.run).thumbnail_png();
+    let png = home.take_picture(case.run.final_pose).thumbnail_png();
     let alternative = format!("What the robot's camera shows at the end: {}", case.run.trial.why);
     picture("image/png", &png, &alternative, "The last picture")
 }

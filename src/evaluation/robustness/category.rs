@@ -1,7 +1,7 @@
 //! Which furniture category stands for a noun.
 
+use crate::catalogue::CATEGORIES;
 use crate::language::{Class, Lexicon};
-use crate::world::CATEGORIES;
 
 /// What a landmark's noun becomes in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

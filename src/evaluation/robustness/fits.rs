@@ -3,9 +3,10 @@
 use super::gold_home::is_place;
 use crate::behavior::motion::RoomFrame;
 use crate::geometry::{Pose, distance_to_segment};
+use crate::map::RoomMap;
 use crate::record::{Direction, Frame, Pair};
-use crate::world::arrange::relations::{AT_WALL_M, NEAR_M, part, standing};
-use crate::world::{Item, RoomMap};
+use crate::simulation::Item;
+use crate::simulation::arrange::relations::{AT_WALL_M, NEAR_M, part, standing};
 
 /// Nearer than this to the door, a piece is by it, metres.
 const BY_DOOR_M: f64 = 2.4;

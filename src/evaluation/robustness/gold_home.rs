@@ -10,12 +10,13 @@ use super::fits::{Told, in_place, related};
 use crate::behavior::motion::{Landmark, RoomFrame, Step, step_for};
 use crate::geometry::Pose;
 use crate::language::Lexicon;
+use crate::map::RoomMap;
 use crate::planning::Planner;
 use crate::record::{Action, Amount, Direction, Grounding, Pair, Plan};
-use crate::trial::Home;
-use crate::world::arrange::access::everything_is_accessible;
-use crate::world::arrange::{Dice, Furnisher, RoomPlan, Spot, home_of_rooms};
-use crate::world::{Item, RoomMap};
+use crate::simulation::Home;
+use crate::simulation::Item;
+use crate::simulation::arrange::access::everything_is_accessible;
+use crate::simulation::arrange::{Dice, Furnisher, RoomPlan, Spot, home_of_rooms};
 
 /// How often a home in which not everything found its place is made anew.
 const ATTEMPTS: usize = 80;
@@ -41,7 +42,7 @@ pub fn home_for(grounding: &Grounding, lexicon: &Lexicon, dice: &mut Dice) -> Op
         let plan = Planner::new(map.clone()).plan(grounding);
         let builder = Builder::new(&map, &room, lexicon, dice)?;
         let (scene, target) = builder.build(&plan, grounding)?;
-        let sound = crate::world::check(&scene, &map, "the gold home").is_ok();
+        let sound = crate::simulation::check(&scene, &map, "the gold home").is_ok();
         let accessible = sound && everything_is_accessible(&map, &scene);
         accessible.then_some(GoldHome { home: Home::new(map, scene), target })
     })
@@ -82,7 +83,7 @@ impl<'a> Builder<'a> {
         Some(Self { map, room, frame, lexicon, furnisher: Furnisher::new(map, "gold", dice) })
     }
 
-    fn build(mut self, plan: &Plan, grounding: &Grounding) -> Option<(crate::world::Scene, String)> {
+    fn build(mut self, plan: &Plan, grounding: &Grounding) -> Option<(crate::simulation::Scene, String)> {
         let mut pose = self.frame.entry;
         let mut steps = 0;
         for action in &plan.actions {
@@ -307,7 +308,7 @@ mod tests {
         assert_eq!((map.side_of(&room.name), target.category.as_str()), (Some(Direction::Left), "nightstand"));
         let entry = map.entry_pose(&room.name).expect("a door");
         let bed = scene.furniture.iter().find(|item| item.category == "bed").expect("a bed");
-        assert_eq!(crate::world::arrange::relations::standing(target, bed, entry).viewer, Direction::Right);
+        assert_eq!(crate::simulation::arrange::relations::standing(target, bed, entry).viewer, Direction::Right);
     }
 
     #[test]

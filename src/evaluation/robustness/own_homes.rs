@@ -1,8 +1,8 @@
 //! The shipped homes that are not the paper's, each with descriptions of its own.
 
 use crate::evaluation::{Gold, GoldError, read_gold};
-use crate::trial::Home;
-use crate::world::ShippedHome;
+use crate::simulation::ShippedHome;
+use crate::simulation::{Home, SHIPPED_HOMES};
 
 /// Corpora of the other homes, by the home's name.
 const CORPORA: [(&str, &str); 3] = [
@@ -26,8 +26,8 @@ pub struct OwnHome {
 pub fn own_homes() -> Result<Vec<OwnHome>, GoldError> {
     let embedded = |name: &'static str, text: &str| {
         let gold = read_gold(text, &format!("{name}.jsonl"))?;
-        let home = ShippedHome::named(name).and_then(|home| home.load().ok());
-        let (map, scene) = home.ok_or_else(|| GoldError {
+        let home = SHIPPED_HOMES.iter().find(|home| home.map.name == name);
+        let (map, scene) = home.map(ShippedHome::load).ok_or_else(|| GoldError {
             file: format!("{name}.jsonl"),
             line: 1,
             message: "no shipped home of that name".to_string(),

@@ -14,8 +14,8 @@ use crate::grounding::{Grounder, Method};
 use crate::language::{Lexicon, chunk_text};
 use crate::planning::Planner;
 use crate::record::{Grounding, Outcome, Plan, Trial};
-use crate::trial::{Home, Settings, run, stream_of};
-use crate::world::arrange::{Dice, Relations, rearranged};
+use crate::simulation::arrange::{Dice, Relations, rearranged};
+use crate::simulation::{Home, Settings, run, stream_of};
 
 /// How an experiment is run.
 #[derive(Clone, Copy)]

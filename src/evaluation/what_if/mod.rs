@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use super::Pipeline;
 use crate::record::{Outcome, Plan};
-use crate::trial::{Home, Settings};
+use crate::simulation::{Home, Settings};
 
 /// What a trial comes to: where it goes first, and how it ends.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]

@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::{Upshot, upshot};
 use crate::evaluation::Pipeline;
 use crate::record::{Plan, Rounded};
-use crate::trial::{Home, Settings};
-use crate::world::check;
+use crate::simulation::check;
+use crate::simulation::{Home, Settings};
 
 /// The smallest shift of one piece that changes the upshot.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]

@@ -9,4 +9,3 @@ pub mod client;
 pub mod codec;
 pub mod line;
 pub mod parameters;
-pub mod server;

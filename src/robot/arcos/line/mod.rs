@@ -1,8 +1,6 @@
-//! What carries the bytes: serial, TCP, a pseudo-terminal, or memory.
+//! What carries the bytes: serial, TCP or a pseudo-terminal.
 
 mod address;
-mod dry;
-mod memory;
 mod pty;
 mod serial;
 mod tcp;
@@ -11,8 +9,6 @@ use std::io;
 use std::time::Duration;
 
 pub use address::{Address, AddressError};
-pub use dry::DryLine;
-pub use memory::MemoryLine;
 pub use pty::PtyLine;
 pub use serial::{BAUD_RATES, SerialLine};
 pub use tcp::TcpLine;

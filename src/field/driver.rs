@@ -1,0 +1,259 @@
+//! Plans run on a real robot: the same executive, the robot's own sensors, and no truth to judge by.
+
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::frame_stream::Tell;
+use crate::behavior::{Executive, Furniture, Options, Run, Silent, Watcher, plan_of, rounded, text_of};
+use crate::frame::{Camera, RgbdFrame};
+use crate::geometry::{ClearanceGrid, Pose};
+use crate::map::RoomMap;
+use crate::perception::{Eyes, View};
+use crate::record::{Note, PathPoint, Plan, Record, Stage, StageError, Trial};
+use crate::recording::{About, Outputs, Recorder};
+use crate::robot::MobileBase;
+use crate::robot::arcos::client::{ArcosBase, Stopper};
+
+/// A trial that is told to stop has its log written within this.
+const WRITTEN_WITHIN: Duration = Duration::from_secs(3);
+
+/// Runs the plan of each record on a robot, one after another.
+pub struct RealDriver {
+    /// All that is known of the home.
+    map: RoomMap,
+    options: Options,
+    outputs: Outputs,
+    robot: Mutex<Robot>,
+    stopper: Stopper,
+    busy: Arc<Busy>,
+    tell: Tell,
+    unheard: Box<dyn Fn() -> bool + Send + Sync>,
+}
+
+/// The robot with its eyes.
+struct Robot {
+    base: ArcosBase,
+    eyes: Box<dyn Eyes + Send>,
+}
+
+/// Whether a trial is under way.
+#[derive(Default)]
+struct Busy(Mutex<bool>, Condvar);
+
+impl Busy {
+    fn set(&self, busy: bool) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = busy;
+        self.1.notify_all();
+    }
+
+    fn wait(&self) {
+        let until = Instant::now() + WRITTEN_WITHIN;
+        let mut busy = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        while *busy && Instant::now() < until {
+            busy = self.1.wait_timeout(busy, Duration::from_millis(50)).unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+}
+
+/// Stops a real robot from a signal handler's thread, and waits until the trial's log is whole.
+pub struct Interrupter {
+    stopper: Stopper,
+    busy: Arc<Busy>,
+}
+
+impl Interrupter {
+    /// Stops the robot at once; returns when motors are off and the log is written.
+    pub fn stop(&self) {
+        self.stopper.stop();
+        self.busy.wait();
+    }
+}
+
+impl RealDriver {
+    /// Plans will be run on `base`, seeing through `eyes`; `tell` hears what happens to the robot.
+    pub fn new(
+        map: RoomMap,
+        options: Options,
+        outputs: Outputs,
+        base: ArcosBase,
+        eyes: Box<dyn Eyes + Send>,
+        tell: Tell,
+    ) -> Self {
+        tell(base.preflight());
+        let stopper = base.stopper();
+        Self {
+            map,
+            options,
+            outputs,
+            robot: Mutex::new(Robot { base, eyes }),
+            stopper,
+            busy: Arc::default(),
+            tell,
+            unheard: Box::new(|| false),
+        }
+    }
+
+    /// A trial also ends when `unheard` says, at any control period, that nobody reads what comes out of it.
+    pub fn while_heard(mut self, unheard: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+        self.unheard = Box::new(unheard);
+        self
+    }
+
+    /// What a signal handler needs.
+    pub fn interrupter(&self) -> Interrupter {
+        Interrupter { stopper: self.stopper.clone(), busy: Arc::clone(&self.busy) }
+    }
+
+    fn robot(&self) -> MutexGuard<'_, Robot> {
+        self.robot.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
+        let failed = |error: String| StageError::new(error);
+        let mut robot = self.robot();
+        let Robot { base, eyes } = &mut *robot;
+        base.begin_trial();
+        let about = About {
+            map: &self.map,
+            truth: &[],
+            camera: Camera::kinect(),
+            seed: 0,
+            settings: format!("{:?}", self.options),
+            record,
+        };
+        let recorder = Recorder::begin(&self.outputs, id, &about).map_err(|error| failed(error.to_string()))?;
+        let mut log = Log {
+            recorder,
+            silent: Silent,
+            stopper: self.stopper.clone(),
+            tell: self.tell.as_ref(),
+            unheard: self.unheard.as_ref(),
+        };
+        let _stops = StopInPanic(&self.stopper);
+        let mut run = run(&self.map, plan, self.options, base, eyes.as_mut(), &mut log);
+        log.drain(base.time_s());
+        let picture = eyes.frame().map(RgbdFrame::color_png);
+        self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, id)?;
+        record.set("trial", &run.trial);
+        let Some(recorder) = log.recorder else { return Ok(()) };
+        let line = serde_json::to_string(record).map_err(|error| failed(error.to_string()))?;
+        recorder
+            .finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line)
+            .map_err(|error| failed(error.to_string()))
+    }
+}
+
+/// Runs `plan` on a robot whose truth nobody knows.
+fn run(
+    map: &RoomMap,
+    plan: &Plan,
+    options: Options,
+    base: &mut ArcosBase,
+    eyes: &mut dyn Eyes,
+    watcher: &mut dyn Watcher,
+) -> Run {
+    let report = Executive::new(map, base, eyes, watcher, options).run(plan);
+    let (pose, duration_s) = (report.pose, base.time_s());
+    let mut path = report.journal.path;
+    path.push(PathPoint::new(duration_s, pose));
+    let trial = Trial {
+        outcome: report.outcome,
+        why: report.why,
+        final_pose: rounded(pose),
+        target_id: None,
+        approached: Vec::new(),
+        right_first: None,
+        picture: None,
+        duration_s: duration_s.into(),
+        distance_m: base.trial_distance_m().into(),
+        spl: None,
+        collisions: 0,
+        min_clearance_m: None,
+        actions: report.journal.actions,
+        path,
+    };
+    Run { trial, final_pose: pose, found_at: report.found_at }
+}
+
+/// A program that panics steers no more: the robot is stopped, its motors switched off and the line closed at once.
+struct StopInPanic<'a>(&'a Stopper);
+
+impl Drop for StopInPanic<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.stop();
+        }
+    }
+}
+
+/// Passes on what the executive tells, adds what happens to the robot, and hears of a stop.
+struct Log<'a> {
+    recorder: Option<Recorder>,
+    silent: Silent,
+    stopper: Stopper,
+    tell: &'a (dyn Fn(&str) + Send + Sync),
+    unheard: &'a (dyn Fn() -> bool + Send + Sync),
+}
+
+impl Log<'_> {
+    fn inner(&mut self) -> &mut dyn Watcher {
+        match &mut self.recorder {
+            Some(recorder) => recorder,
+            None => &mut self.silent,
+        }
+    }
+
+    fn drain(&mut self, time_s: f64) {
+        for event in self.stopper.take_events() {
+            (self.tell)(&event.text);
+            self.inner().said(time_s, &format!("robot: {}", event.text));
+        }
+    }
+}
+
+impl Watcher for Log<'_> {
+    fn sensed(&mut self, base: &dyn MobileBase) {
+        self.drain(base.time_s());
+        self.inner().sensed(base);
+    }
+
+    fn frame(&mut self, time_s: f64, believed: Pose, frame: &RgbdFrame) {
+        self.inner().frame(time_s, believed, frame);
+    }
+
+    fn seen(&mut self, time_s: f64, view: &View) {
+        self.inner().seen(time_s, view);
+    }
+
+    fn grid(&mut self, time_s: f64, grid: &ClearanceGrid) {
+        self.inner().grid(time_s, grid);
+    }
+
+    fn said(&mut self, time_s: f64, text: &str) {
+        self.inner().said(time_s, text);
+    }
+
+    fn furniture(&mut self, time_s: f64, furniture: &[Furniture]) {
+        self.inner().furniture(time_s, furniture);
+    }
+
+    /// Someone says so, or what the robot does can no longer be told.
+    fn wants_stop(&self) -> bool {
+        self.stopper.is_stopping() || self.recorder.as_ref().is_some_and(Recorder::has_failed) || (self.unheard)()
+    }
+}
+
+impl Stage for RealDriver {
+    fn run(&self, record: &mut Record) -> Result<Note, StageError> {
+        let plan = plan_of(record, &self.map)?;
+        let id = record.id().unwrap_or_else(|| "record".to_string());
+        self.busy.set(true);
+        let driven = self.drive(record, &plan, &id);
+        self.busy.set(false);
+        driven.map(|()| Note::Done)
+    }
+
+    fn text(&self, record: &Record) -> Result<String, StageError> {
+        text_of(record)
+    }
+}

@@ -1,0 +1,116 @@
+//! What a trial leaves beside its record: a plot, a picture, a log; and who may look on.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::live::Live;
+use crate::behavior::Run;
+use crate::drawing::{Outline, Plot};
+use crate::files::{FileError, write_file};
+use crate::geometry::Vec2;
+use crate::map::RoomMap;
+use crate::record::{Record, StageError};
+
+/// A piece of furniture that truly stands in the home, to be shown beside what the robot believes.
+#[derive(Clone, Debug)]
+pub struct TruePiece {
+    /// Its name in the scene.
+    pub id: String,
+    /// What it is.
+    pub noun: String,
+    /// Corners on the floor, counter-clockwise, metres.
+    pub corners: Vec<Vec2>,
+    /// Metres.
+    pub height: f64,
+}
+
+/// Where the files go; `{id}` in a name stands for the record's id.
+#[derive(Clone, Debug, Default)]
+pub struct Outputs {
+    /// The way through the rooms, SVG.
+    pub plot: Option<PathBuf>,
+    /// Folder for what the camera shows at the end, `ID.png`.
+    pub picture: Option<PathBuf>,
+    /// Log of the trial, MCAP.
+    pub record: Option<PathBuf>,
+    /// The log, to those who look on.
+    pub live: Option<Arc<Live>>,
+    /// A simulated trial goes on at so many times the time of day; as fast as it can where nothing is said.
+    pub pace: Option<f64>,
+    /// Overwrite files that exist.
+    pub force: bool,
+    /// How the trial is run, for the log: a JSON line, or nothing.
+    pub options: String,
+}
+
+impl Outputs {
+    /// The path with the record's id in it.
+    pub(super) fn named(path: &Path, id: &str) -> PathBuf {
+        PathBuf::from(path.to_string_lossy().replace("{id}", &file_name(id)))
+    }
+
+    /// Draws the way of a trial through the rooms, past what truly stands there where that is known.
+    pub fn draw_plot(map: &RoomMap, truth: &[TruePiece], run: &Run, title: &str) -> String {
+        let found = run.trial.target_id.as_deref();
+        let furniture = truth.iter().map(|piece| Outline {
+            label: piece.noun.replace('_', " "),
+            corners: piece.corners.clone(),
+            found: found == Some(piece.id.as_str()),
+        });
+        let plot = Plot {
+            title: title.to_string(),
+            caption: format!("{} – {:.1} m in {:.0} s", run.trial.why, run.trial.distance_m.0, run.trial.duration_s.0),
+            rooms: map.rooms.iter().map(|room| (room.name.clone(), room.polygon().centroid())).collect(),
+            walls: map.walls(),
+            furniture: furniture.collect(),
+            path: run.trial.path.iter().map(|point| point.pose()).collect(),
+            found_at: run.found_at,
+        };
+        plot.to_svg()
+    }
+
+    /// Writes the plot and the last picture, where they are wanted.
+    ///
+    /// # Errors
+    /// When a file cannot be written, or stands there already and nothing forces.
+    pub fn leave(
+        &self,
+        (map, truth): (&RoomMap, &[TruePiece]),
+        run: &mut Run,
+        png: Option<&[u8]>,
+        record: &Record,
+        id: &str,
+    ) -> Result<(), StageError> {
+        let failed = |error: FileError| StageError::new(error.to_string());
+        if let Some(path) = &self.plot {
+            let title: String = record.get("text")?.unwrap_or_default();
+            let svg = Self::draw_plot(map, truth, run, &title);
+            write_file(&Self::named(path, id), svg.as_bytes(), self.force).map_err(failed)?;
+        }
+        if let (Some(folder), Some(png)) = (&self.picture, png) {
+            let name = format!("{}.png", file_name(id));
+            std::fs::create_dir_all(folder).map_err(|e| StageError::new(format!("{}: {e}", folder.display())))?;
+            write_file(&folder.join(&name), png, self.force).map_err(failed)?;
+            run.trial.picture = Some(name);
+        }
+        Ok(())
+    }
+}
+
+/// An id as a file name: what could lead out of the folder or hide the file is replaced.
+pub(super) fn file_name(id: &str) -> String {
+    let safe: String =
+        id.chars().map(|c| if c.is_alphanumeric() || matches!(c, '-' | '_') { c } else { '_' }).collect();
+    if safe.is_empty() { "record".to_string() } else { safe }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_cannot_lead_out_of_the_folder() {
+        assert_eq!(file_name("../../etc/passwd"), "______etc_passwd");
+        assert_eq!(file_name(""), "record");
+    }
+}

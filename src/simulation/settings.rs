@@ -1,0 +1,62 @@
+//! How a trial is run: what the executive may do, what eyes it has, and its random stream.
+
+use super::Noise;
+use super::camera::Kinect;
+use crate::behavior::Options;
+
+/// Everything about a trial that is neither home nor plan.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Settings {
+    /// What the executive may do.
+    pub options: Options,
+    /// What the robot's eyes report.
+    pub perception: Perception,
+    /// The simulated camera: its faults and the light.
+    pub kinect: Kinect,
+    /// How imperfect the robot is.
+    pub noise: NoiseLevel,
+    /// Seed of everything random.
+    pub seed: u64,
+}
+
+/// What the robot's eyes report.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Perception {
+    /// Ideal detections of what a camera would show
+    #[default]
+    Truth,
+    /// True boxes with a sensor's noise, misses and confusions
+    Boxes,
+    /// Rendered Kinect frames truly divided among the items, our classifier
+    Masks,
+    /// Rendered Kinect frames, nothing true
+    Camera,
+}
+
+/// How imperfect the simulated robot's wheels, sonars, compass and start are, against what its world says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum NoiseLevel {
+    /// A robot without any error
+    Off,
+    /// As the scene says, or as usual
+    #[default]
+    Default,
+    /// Twice that
+    Double,
+}
+
+impl NoiseLevel {
+    /// The noise of a robot in a world that has `usual`.
+    pub fn of(self, usual: Noise) -> Noise {
+        match self {
+            Self::Off => Noise::off(),
+            Self::Default => usual,
+            Self::Double => usual.times(2.0),
+        }
+    }
+}
+
+/// The random stream of a record: by its id, so that it is the same in any order, job or shard (FNV-1a).
+pub fn stream_of(id: &str) -> u64 {
+    id.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
