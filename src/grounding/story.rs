@@ -5,6 +5,7 @@
 //! shall be brought. What a phrase adds depends on how far the story is.
 
 use super::meaning::pair;
+use super::phrase_pairs::pairs_of;
 use crate::language::{
     Act, Article, Class, Errand, From, Kind, NounPhrase, Phrase, Reading, Recipient, Relation, Role, RoomPick,
     attributes_of, is_lead, name_of,
@@ -13,22 +14,23 @@ use crate::record::{
     Amount, Destination, Direction, Frame, Grounding, Node, ObjectSlot, Pair, RoomSlot, RuledOut,
 };
 
-/// What was understood of a reading: its first errand, and the others under `then`.
-pub fn tell(reading: &Reading, errands: &[Errand]) -> Grounding {
+/// What was understood of a reading: its first errand, and the others under `then`; and what the first errand's
+/// object may be instead.
+pub fn tell(reading: &Reading, errands: &[Errand]) -> (Grounding, Option<ObjectSlot>) {
     let mut told = errands.iter().map(|(range, pick)| {
         let mut story = Story::new(reading, &reading.phrases[range.clone()], pick.as_ref());
         story.run();
         story.end()
     });
-    let mut first = told.next().unwrap_or_default();
-    for mut next in told {
+    let (mut first, instead) = told.next().unwrap_or_default();
+    for (mut next, _) in told {
         first.then.append(&mut next.then);
         let empty = next.object.is_none() && next.nodes.is_empty() && next.room.is_none() && next.destination.is_none();
         if !empty {
             first.then.push(Grounding { then: Vec::new(), ..next });
         }
     }
-    first
+    (first, instead)
 }
 
 /// An object as heard, and how strongly it was asked for.
@@ -191,46 +193,7 @@ impl<'r> Story<'r> {
 
     /// References and directions of a phrase.
     fn pairs(&self, phrase: &Phrase) -> Vec<Pair> {
-        let directions = || phrase.directions.iter().flatten().copied();
-        let of = |reference: &str| directions().map(|direction| pair(reference, direction)).collect::<Vec<_>>();
-        let mut pairs = match phrase.from {
-            From::Nothing => Vec::new(),
-            From::Move => of("move"),
-            From::Robot => of("robot"),
-            From::Room => of("room"),
-            From::Wall => of("wall"),
-            From::Door => of("door"),
-            From::It => match &self.last {
-                Some(noun) => of(noun),
-                None if phrase.directions[0] == Some(Direction::Side) => Vec::new(),
-                None => of("robot"),
-            },
-            From::Nouns => self.noun_pairs(phrase),
-        };
-        if let (Some(first), Some(Amount::Fraction(_))) = (pairs.first_mut(), &phrase.amount) {
-            first.amount.clone_from(&phrase.amount);
-        }
-        pairs
-    }
-
-    fn noun_pairs(&self, phrase: &Phrase) -> Vec<Pair> {
-        let direction = phrase.directions[0].unwrap_or(Direction::Side);
-        let named = |noun: &&NounPhrase| !noun.generic;
-        let mut pairs: Vec<Pair> = Vec::new();
-        for noun in phrase.nouns.iter().filter(named) {
-            let reference = match noun.class {
-                Some(Class::Wall) => "wall".to_string(),
-                Some(Class::Opening) if phrase.nouns.len() > 1 && noun.name == noun.head => "door".to_string(),
-                _ => self.name(noun),
-            };
-            let mut own = pair(&reference, direction);
-            own.ordinal = noun.ordinal;
-            pairs.push(own);
-        }
-        if direction == Direction::Between && pairs.len() == 2 {
-            pairs[0].and = Some(pairs[1].reference.clone());
-        }
-        pairs
+        pairs_of(phrase, &self.reading.units, self.last.as_deref())
     }
 
     fn place(&mut self, at: usize) {
@@ -241,6 +204,15 @@ impl<'r> Story<'r> {
         if phrase.kind == Kind::ObjectMark && !matches!(phrase.relation, Some(Relation::Landmark(_)) | None) && self.holds(phrase) {
             return;
         }
+        self.note_room(phrase);
+        // "As soon as you walk in, turn left" says when; "just as you walk in on the table" says where.
+        let next = self.phrases[at + 1..].iter().find(|next| next.kind != Kind::Aside);
+        if phrase.entering && next.is_none_or(|next| matches!(next.kind, Kind::Turn | Kind::Go | Kind::Room)) {
+            return;
+        }
+        if phrase.from == From::It && self.is_under_it(at) {
+            return;
+        }
         let pairs = self.pairs(phrase);
         self.remember(phrase);
         self.take_held(phrase);
@@ -248,6 +220,33 @@ impl<'r> Story<'r> {
             self.open = None;
         }
         self.attach(at, pairs);
+    }
+
+    /// "At the back of the office" and "at the bedroom door" say which room.
+    fn note_room(&mut self, phrase: &Phrase) {
+        if phrase.kind == Kind::Part
+            && let Some(name) = self.room_name(phrase)
+        {
+            let passage = matches!(name.as_str(), "hallway" | "hall" | "corridor");
+            self.rooms.push((name, passage));
+        }
+    }
+
+    /// "There's a bench and the glove is under it": the bench holds nothing, it only says where.
+    fn is_under_it(&mut self, at: usize) -> bool {
+        let phrase = &self.phrases[at];
+        let told = at > 0 && self.phrases[at - 1].kind == Kind::Object && self.phrases[at - 1].past == phrase.first;
+        let nodes = &mut self.grounding.nodes;
+        let Some(node) = nodes.iter_mut().rev().find(|node| node.target.is_some()) else { return false };
+        if !told || node.target != self.last || !self.heard.is_empty() && false {
+            return false;
+        }
+        let Some(direction) = phrase.directions[0] else { return false };
+        if let Some(own) = node.target.take() {
+            node.pairs.push(pair(&own, direction));
+        }
+        self.open = None;
+        true
     }
 
     /// "Put it in the box": the box is where it goes.
@@ -276,14 +275,19 @@ impl<'r> Story<'r> {
         }
     }
 
-    /// "With my dentures on it": what lies on the furniture may be what is asked for.
+    /// "There's a stand with my dentures on it": what it holds may be what is asked for.
     fn take_held(&mut self, phrase: &Phrase) {
-        let on_it = self.says(phrase, &["on", "it"]) && phrase.relation.is_none();
-        let Some(noun) = phrase.noun().filter(|noun| on_it && noun.article == Article::Definite && !noun.is_furniture())
+        let Some(noun) = phrase.noun().filter(|noun| phrase.held && noun.article == Article::Definite && !noun.generic)
         else {
             return;
         };
-        self.hear(noun, 1);
+        let units = &self.reading.units;
+        let mine = units[noun.first..noun.head].iter().any(|unit| unit.has(Role::Hearer));
+        let told = self.phrases.iter().rev().filter(|other| other.first < phrase.first).find(|other| other.kind == Kind::Target);
+        let brought_in = told.is_none_or(|target| !matches!(target.relation, Some(Relation::On | Relation::In)));
+        if !noun.is_furniture() && (mine || brought_in) {
+            self.hear(noun, 2);
+        }
     }
 
     /// Into the node of the furniture said before, or to wait for the furniture said next, or as a step of its own.
@@ -293,7 +297,9 @@ impl<'r> Story<'r> {
             Some(node) if !reached => {
                 let known = &mut self.grounding.nodes[node].pairs;
                 // "By the purse uh by the black purse": said twice in one breath, meant once.
-                known.extend(pairs.into_iter().filter(|pair| known_last(pair)).collect::<Vec<_>>());
+                let breath = at > 0 && self.phrases[at - 1].past == self.phrases[at].first;
+                let again = breath && pairs.len() == 1 && known.last() == pairs.first();
+                known.extend(pairs.into_iter().filter(|_| !again));
             }
             _ if self.target_follows(at) && !reached => self.waiting.extend(pairs),
             _ => {
@@ -342,8 +348,9 @@ impl<'r> Story<'r> {
             let name = self.reading.units[room].noun.map_or(String::new(), |noun| noun.name.to_string());
             self.rooms.push((name, false));
         }
-        self.asked |= !self.asked && self.heard.is_empty() && matches!(phrase.relation, None) && self.grounding.nodes.iter().all(|node| node.target.is_none())
-            && !matches!(phrase.act, Act::There) && !phrase.is_reached();
+        let first = self.heard.is_empty() && self.waiting.is_empty() && self.grounding.nodes.is_empty();
+        self.asked |= first && self.rooms.is_empty() && self.pick.is_none() && phrase.relation.is_none()
+            && phrase.act != Act::There && !phrase.is_reached() && noun.article != Article::Indefinite;
         if phrase.recipient == Some(Recipient::Speaker) {
             self.destination.recipient = Some("speaker".to_string());
         }
@@ -367,11 +374,18 @@ impl<'r> Story<'r> {
         let to = phrase.relation == Some(Relation::To);
         let goes_on = self.says_to_later(at);
         match self.act {
-            Act::Put => !moved && !(goes_on && !to),
+            Act::Put => !moved && !(goes_on && !to) && !self.is_source(at),
             Act::Fetch | Act::Give => !moved && (to || self.delivering),
             Act::Other => !moved && to && !self.heard.is_empty(),
             _ => self.delivering && !moved,
         }
+    }
+
+    /// "Put the glass on the mantel in the dishwasher": of two places after the thing the first is where it is.
+    fn is_source(&self, at: usize) -> bool {
+        let named = at > 0 && self.phrases[at - 1].kind == Kind::Object && self.phrases[at - 1].noun().is_some_and(|noun| !noun.generic);
+        let next = self.phrases.get(at + 1).filter(|next| next.first == self.phrases[at].past);
+        named && next.is_some_and(|next| next.kind == Kind::Target && matches!(next.relation, Some(Relation::In | Relation::On)))
     }
 
     /// "Move the book on the desk to the shelf": where it goes is said later in the clause.
@@ -397,7 +411,8 @@ impl<'r> Story<'r> {
         }
         let stairs = matches!(name.as_str(), "stairs" | "staircase" | "stair" | "step") && self.says(phrase, &["up", "down"]);
         // "The cabinet sitting on the floor", "the laptop on the table": where the thing asked for itself stands.
-        let of_asked = self.asked && matches!(phrase.relation, Some(Relation::On | Relation::In | Relation::At)) && !phrase.is_reached() && self.heard.is_empty();
+        let again = self.grounding.nodes.iter().any(|node| same_target(node.target.as_deref(), Some(&name)));
+        let of_asked = self.asked && !again && matches!(phrase.relation, Some(Relation::On | Relation::In | Relation::At)) && !phrase.is_reached() && self.heard.is_empty();
         stairs || of_asked || self.is_waypoint(at)
     }
 
@@ -426,11 +441,14 @@ impl<'r> Story<'r> {
     fn push_target(&mut self, phrase: &Phrase, noun: &NounPhrase) {
         let name = self.name(noun);
         let mut pairs: Vec<Pair> = std::mem::take(&mut self.waiting);
+        if phrase.is_reached() && self.reading.units[phrase.first].has(Role::Motion) {
+            pairs.insert(0, pair("move", Direction::Front));
+        }
         // "Until you reach the end, a table": the far one.
         if noun.part == Some(Direction::Back) {
             pairs.push(pair("room", Direction::Back));
         }
-        if let Some(side) = noun.side.filter(|_| self.reading.units[noun.head].has(Role::SideWord) || noun.class != Some(Class::Storage)) {
+        if let Some(side) = noun.side {
             pairs.push(pair("robot", side));
         }
         self.last = Some(name.clone());
@@ -441,7 +459,6 @@ impl<'r> Story<'r> {
             pairs,
             score: if noun.class.is_some() { 0.95 } else { 0.6 }.into(),
         };
-        let _ = phrase;
         let nodes = &mut self.grounding.nodes;
         let again = nodes.iter().rposition(|known| same_target(known.target.as_deref(), node.target.as_deref()));
         match again {
@@ -533,7 +550,7 @@ impl<'r> Story<'r> {
     }
 
     fn person(&self, unit: usize) -> String {
-        let name = self.reading.units[unit].lower.replace([' ', '-'], "_");
+        let name = self.reading.units[unit].lower.replace(['.', ','], "").replace([' ', '-'], "_");
         if matches!(name.as_str(), "me" | "us") { "speaker".to_string() } else { name }
     }
 
@@ -579,15 +596,19 @@ impl<'r> Story<'r> {
 
     // --- the end
 
-    fn end(mut self) -> Grounding {
+    fn end(mut self) -> (Grounding, Option<ObjectSlot>) {
         self.flush();
+        let heard: Vec<ObjectSlot> = self.heard.iter().filter(|heard| heard.strength > 1).map(|heard| heard.slot.clone()).collect();
         self.settle_objects();
+        let chosen = self.grounding.object.as_ref().map(|object| head_of(&object.name));
+        let also = |slot: &ObjectSlot| self.grounding.also.iter().any(|known| known.name == slot.name);
+        let instead = heard.into_iter().find(|slot| Some(head_of(&slot.name)) != chosen && !also(slot));
         self.settle_room();
         if self.facing {
             face(&mut self.grounding);
         }
         self.grounding.destination = (!self.destination.is_empty()).then_some(self.destination);
-        self.grounding
+        (self.grounding, instead)
     }
 
     /// Of the things heard, the one asked for, the ones asked for beside it, and those that only lie near by.
@@ -601,6 +622,10 @@ impl<'r> Story<'r> {
             self.heard.iter().rev().find(best).cloned()
         };
         let Some(chosen) = chosen else { return };
+        // What is asked for is no landmark of its own.
+        for node in &mut self.grounding.nodes {
+            node.pairs.retain(|pair| pair.reference != chosen.slot.name || pair.direction != Direction::Side);
+        }
         let same = |slot: &ObjectSlot, other: &ObjectSlot| head_of(&slot.name) == head_of(&other.name);
         let heard = std::mem::take(&mut self.heard);
         for other in heard.iter().filter(|other| !same(&other.slot, &chosen.slot)) {
@@ -653,6 +678,10 @@ impl<'r> Story<'r> {
                 _ => phrase.side,
             })
         });
+        // "The bathroom, the one on the left".
+        let side = side.or_else(|| {
+            self.phrases.iter().filter(|phrase| phrase.kind == Kind::Room).find_map(|phrase| phrase.side)
+        });
         let ordinal = picked.and_then(|phrases| phrases.iter().find_map(|p| p.noun().and_then(|noun| noun.ordinal)));
         let entered = self.rooms.iter().rev().find(|(_, passage)| !passage).or(self.rooms.last());
         let name = entered.map(|(name, _)| name.clone());
@@ -660,10 +689,6 @@ impl<'r> Story<'r> {
             self.grounding.room = Some(RoomSlot { name, side, ordinal, score: 0.95.into() });
         }
     }
-}
-
-fn known_last(_pair: &Pair) -> bool {
-    true
 }
 
 fn head_of(name: &str) -> &str {

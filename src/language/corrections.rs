@@ -37,6 +37,10 @@ pub(super) fn rule_out(phrases: &mut [Phrase], units: &[Unit]) {
         // "Not the cup from the kitchen": what is asked for may still come from there.
         let thing = phrase.kind == Kind::Object && phrase.noun().is_some_and(|noun| !noun.generic);
         ruled_to = (!thing).then_some(phrase.past);
+        // "Not the one by the door" rules out no door.
+        if attached && phrase.kind != Kind::Room || phrase.first > 0 && matches!(units[phrase.first - 1].lower.as_ref(), "one" | "ones") {
+            phrase.nouns.clear();
+        }
         phrase.kind = Kind::RuledOut;
         phrase.inner = None;
     }

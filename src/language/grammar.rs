@@ -133,6 +133,7 @@ pub enum Part {
     List,
     Room,
     Opening,
+    Sided,
     Wall,
     Person,
     Relation,
@@ -144,13 +145,14 @@ pub enum Part {
     Unknown,
     Name,
     Noun,
+    Fixed,
     End,
     End2,
     Place,
     To,
 }
 
-const PARTS: [(&str, Part); 22] = [
+const PARTS: [(&str, Part); 24] = [
     ("thing", Part::Thing),
     ("things", Part::Things),
     ("objects", Part::Objects),
@@ -158,6 +160,7 @@ const PARTS: [(&str, Part); 22] = [
     ("list", Part::List),
     ("room", Part::Room),
     ("opening", Part::Opening),
+    ("sided", Part::Sided),
     ("wall", Part::Wall),
     ("person", Part::Person),
     ("rel", Part::Relation),
@@ -169,6 +172,7 @@ const PARTS: [(&str, Part); 22] = [
     ("unknown", Part::Unknown),
     ("name", Part::Name),
     ("noun", Part::Noun),
+    ("fixed", Part::Fixed),
     ("end", Part::End),
     ("end2", Part::End2),
     ("place", Part::Place),
@@ -279,7 +283,7 @@ impl Grammar {
         let bare = token.trim_start_matches('{').trim_end_matches('}');
         let part = PARTS.iter().find(|(name, _)| *name == bare).map(|(_, part)| *part);
         // Looking ahead, "noun", "end" and "place" need no braces.
-        let looks = look != Look::Take && matches!(bare, "noun" | "end" | "end2" | "place" | "to" | "hand");
+        let looks = look != Look::Take && matches!(bare, "noun" | "fixed" | "end" | "end2" | "place" | "to" | "hand");
         if token.starts_with('{') || looks && part.is_some() {
             return part.map(Atom::Part).ok_or_else(|| format!("unknown part `{token}`"));
         }

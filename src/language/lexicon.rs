@@ -195,7 +195,7 @@ impl Lexicon {
     /// The noun of that name or of which it is the regular plural, and whether it is.
     pub fn any_number(&self, words: &str) -> Option<(&Noun, bool)> {
         if let Some(noun) = self.noun(words) {
-            return Some((noun, false));
+            return Some((noun, words.ends_with('s') && !noun.name.ends_with('s')));
         }
         let (before, last) = words.rsplit_once(' ').map_or(("", words), |(before, last)| (before, last));
         singulars(last).find_map(|stem| {

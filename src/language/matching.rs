@@ -193,8 +193,8 @@ impl<'u, 't> Text<'u, 't> {
             Part::Thing | Part::Things | Part::Objects | Part::Furniture | Part::List => {
                 self.take_things(part, at, caught)
             }
-            Part::Room | Part::Opening | Part::Wall => {
-                let noun = self.noun(at).filter(|noun| fits_place(part, noun.class))?;
+            Part::Room | Part::Opening | Part::Wall | Part::Sided => {
+                let noun = self.noun(at).filter(|noun| fits_place(part, noun))?;
                 caught.noun = Some(at);
                 caught.list_past = noun.past;
                 caught.side = noun.side.or(caught.side);
@@ -225,11 +225,12 @@ impl<'u, 't> Text<'u, 't> {
                 caught.list_past = noun.past;
                 (noun.article != Article::None).then_some(noun.past)
             }
-            Part::Name => unit.is_unknown().then_some(()).map(|()| {
+            Part::Name => (unit.is_unknown() && (unit.capital || !unit.foreign)).then_some(()).map(|()| {
                 caught.person = Some(at);
                 at + 1
             }),
             Part::Noun => unit.noun.map(|_| at + 1),
+            Part::Fixed => unit.class().filter(|class| *class != Class::Object).map(|_| at + 1),
             Part::Place => self.place_follows(at).then_some(at),
             Part::To => (self.is(at, &["to", "into", "and"]) || self.has(at, Role::Conjunction)).then_some(at),
             Part::End | Part::End2 => None,
@@ -323,8 +324,8 @@ impl<'u, 't> Text<'u, 't> {
         // "By the bed and the mug on the desk": the second begins a clause of its own.
         let own_place = part == Part::List && !between && !comma && other.class == Some(Class::Object)
             && other.article == Article::Definite
-            && self.units.get(other.past).is_some_and(|unit| !unit.pause && unit.has(Role::Preposition) && !self.is(other.past, &["on"]) )
-            && self.relation(other.past).is_some();
+            && self.units.get(other.past).is_some_and(|unit| !unit.pause && unit.has(Role::Preposition) )
+            && self.relation(other.past).is_some_and(|(_, past)| !self.is(past, &["it", "them"]));
         !clause && alike && !own_place && !(part == Part::List && self.units[other.first].has(Role::Act))
     }
 
@@ -341,7 +342,7 @@ impl<'u, 't> Text<'u, 't> {
         let unit = self.units.get(head)?;
         let person = unit.has(Role::Person) || unit.class() == Some(Class::Person);
         // A name has no article, and what is given follows it.
-        let name = head == at && unit.is_unknown() && self.noun(at + 1).is_some_and(|noun| noun.article != Article::None);
+        let name = head == at && unit.is_unknown() && (unit.capital || !unit.foreign) && self.noun(at + 1).is_some_and(|noun| noun.article != Article::None);
         if !person && !name {
             return None;
         }
@@ -407,10 +408,11 @@ impl<'u, 't> Text<'u, 't> {
     }
 }
 
-fn fits_place(part: Part, class: Option<Class>) -> bool {
+fn fits_place(part: Part, noun: &NounPhrase) -> bool {
     match part {
-        Part::Room => class == Some(Class::Room),
-        Part::Opening => class == Some(Class::Opening),
-        _ => class == Some(Class::Wall),
+        Part::Room => noun.class == Some(Class::Room),
+        Part::Opening => noun.class == Some(Class::Opening),
+        Part::Sided => noun.class == Some(Class::Opening) && noun.side.is_some(),
+        _ => noun.class == Some(Class::Wall),
     }
 }

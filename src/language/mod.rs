@@ -54,14 +54,31 @@ pub type Errand = (Range<usize>, Option<RoomPick>);
 
 /// The phrases of a text and its errands.
 pub fn read<'t>(words: &[Word<'t>], lexicon: &'t Lexicon) -> (Reading<'t>, Vec<Errand>) {
-    let reading = phrases::find(units(words, lexicon), lexicon);
-    let ranges = errands::errands(&reading.phrases, &reading.units);
+    let mut reading = phrases::find(units(words, lexicon), lexicon);
+    let ranges = errands::errands(&mut reading.phrases, &reading.units);
     let pick = |range: Range<usize>| {
         let picked = room_pick::pick(&reading.phrases[range.clone()], &reading.units);
         (range, picked)
     };
     let errands = ranges.into_iter().map(pick).collect();
     (reading, errands)
+}
+
+/// The phrases of words that may come from several places, and every noun phrase among them.
+pub fn read_words<'t>(words: &[Word<'t>], lexicon: &'t Lexicon) -> (Reading<'t>, Vec<NounPhrase>) {
+    let reading = phrases::find(units(words, lexicon), lexicon);
+    let mut nouns = Vec::new();
+    let mut at = 0;
+    while at < reading.units.len() {
+        match noun_phrases::noun_phrase(&reading.units, at) {
+            Some(noun) => {
+                at = noun.past;
+                nouns.push(noun);
+            }
+            None => at += 1,
+        }
+    }
+    (reading, nouns)
 }
 
 /// The chunk tree of a reading.

@@ -169,7 +169,13 @@ impl<'u> Reader<'u> {
             self.phrase.article = Article::Definite;
         }
         let owns = unit.has(Role::Person) && self.next(at + 1).is_some_and(|next| next.lower == "'s");
-        owner || owns || leads && at == start && matches!(unit.lower.as_ref(), "all" | "both")
+        // "The dog's leash".
+        let thing_owns = unit.noun.is_some()
+            && self.next(at + 1).is_some_and(|next| next.lower == "'s")
+            && self.next(at + 2).is_some_and(|next| next.noun.is_some() || self.leads_on(at + 2) && self.next(at + 3).is_some_and(|last| last.noun.is_some()))
+            && !self.next(at + 2).is_some_and(|next| next.has(Role::Determiner) || next.has(Role::Preposition));
+        let owner = owner || unit.lower == "'s" && at > start && self.units[at - 1].noun.is_some() && self.next(at + 1).is_some_and(|next| next.noun.is_some() || self.leads_on(at + 1));
+        owner || owns || thing_owns || leads && at == start && matches!(unit.lower.as_ref(), "all" | "both")
     }
 
     /// "Left", "back", "second", "two" before a noun.
@@ -240,6 +246,11 @@ impl<'u> Reader<'u> {
         self.phrase.head = at;
         self.phrase.name = self.name_start(at, start);
         self.set_noun(unit);
+        // "Go right, keys on the desk": without an article the side is not the thing's.
+        let bare_side = self.phrase.side.is_some() && self.phrase.article == Article::None;
+        if bare_side && self.phrase.class == Some(Class::Object) {
+            return None;
+        }
         self.compound(start);
         self.phrase.past = self.phrase.head + 1;
         self.hold();
@@ -268,6 +279,11 @@ impl<'u> Reader<'u> {
         let bare = self.phrase.head == start
             && (start == 0 || self.units[start].pause || self.units[start - 1].stop);
         while let Some(next) = self.next(self.phrase.head + 1) {
+            if self.goes_on_unknown(next, bare) {
+                self.phrase.head += 1;
+                self.phrase.plural = false;
+                break;
+            }
             let (Some(noun), Some(class)) = (next.noun, self.phrase.class) else { break };
             if next.roles.meet(VERBS) || next.has(Role::Lying) || next.has(Role::Near) {
                 break;
@@ -292,13 +308,26 @@ impl<'u> Reader<'u> {
                     self.phrase.room = Some(head);
                     self.phrase.name = head + 1;
                 }
-                first if first.is_furniture() && noun.class.is_furniture() => self.phrase.name = head + 1,
+                Class::TableLike | Class::Seat | Class::Couch | Class::Bed | Class::Storage if noun.class.is_furniture() => {
+                    self.phrase.name = head + 1;
+                }
                 _ => {}
             }
             self.phrase.head = head + 1;
             self.phrase.plural = false;
             self.set_noun(next);
         }
+    }
+
+    /// "The paint roller", "the paper towel holder": a word the lexicon lacks may end a name that began with a thing.
+    fn goes_on_unknown(&self, next: &Unit, bare: bool) -> bool {
+        let thing = matches!(self.phrase.class, Some(Class::Object | Class::Plant | Class::Appliance | Class::Screen));
+        let verb = ["s", "ed", "ing", "en"].iter().any(|ending| next.lower.ends_with(ending));
+        let ends = self.unit(self.phrase.head + 2).is_none_or(|after| {
+            after.pause || after.stop || after.has(Role::Copula) || after.has(Role::Preposition) || after.has(Role::Modal)
+                || after.has(Role::Conjunction) || after.has(Role::Has) || after.has(Role::Relative)
+        });
+        next.is_unknown() && thing && !bare && !self.phrase.plural && !verb && ends
     }
 
     /// "A box of crackers", "a slice of apple".
@@ -322,7 +351,14 @@ impl<'u> Reader<'u> {
         let here = self.unit(at).filter(|unit| at == start || !unit.pause);
         if here.is_some_and(|unit| unit.has(Role::Generic) && !unit.roles.meet(VERBS) || at > start && unit.has(Role::Generic)) {
             let unit = self.unit(at)?;
-            self.phrase.generic = true;
+            // "Something to drink" is a drink.
+            let purpose = self.is(at + 1, &["to"]) && self.is(at + 2, &["drink", "eat", "read", "wear", "write"]);
+            if purpose {
+                (self.phrase.head, self.phrase.name, self.phrase.past) = (at + 2, at + 2, at + 3);
+                self.phrase.class = Some(Class::Object);
+                return Some(self.phrase);
+            }
+            self.phrase.generic = unit.lower != "anything" || self.is(at + 1, &["but", "like"]);
             (self.phrase.head, self.phrase.name, self.phrase.past) = (at, at, at + 1);
             self.phrase.plural |= unit.lower.ends_with('s');
             return Some(self.phrase);
@@ -380,7 +416,11 @@ pub fn name_of(phrase: &NounPhrase, units: &[Unit], counted: bool) -> String {
         words.push(one_name(&units[contents], false));
     }
     for at in phrase.name..=phrase.head {
-        words.push(one_name(&units[at], counted && at == phrase.head));
+        words.push(if at < phrase.head {
+            Cow::Owned(units[at].lower.replace([' ', '-'], "_"))
+        } else {
+            one_name(&units[at], counted)
+        });
     }
     words.join("_")
 }

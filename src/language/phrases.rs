@@ -5,7 +5,7 @@ use super::corrections::{continue_moves, rule_out, take_back_corrected};
 use super::grammar::{Grammar, RuleKind, Source};
 use super::lexicon::Lexicon;
 use super::matching::Text;
-use super::noun_phrases::NounPhrase;
+use super::noun_phrases::{Article, NounPhrase};
 use super::numbers;
 use super::relations::Relation;
 use super::subjects::settle_subjects;
@@ -150,6 +150,10 @@ pub struct Phrase {
     pub recipient: Option<Recipient>,
     /// How far, or until what.
     pub amount: Option<Amount>,
+    /// It tells what the furniture before it holds.
+    pub held: bool,
+    /// It says when the room is entered: "as soon as you walk in".
+    pub entering: bool,
 }
 
 impl Phrase {
@@ -222,6 +226,8 @@ fn empty(kind: Kind, first: usize, past: usize, rule: &'static str) -> Phrase {
         side: None,
         recipient: None,
         amount: None,
+        held: false,
+        entering: false,
     }
 }
 
@@ -245,6 +251,11 @@ fn phrase(text: &Text, grammar: &Grammar, edge: &Edge) -> Phrase {
         RuleKind::Part => Kind::Part,
         RuleKind::Room => Kind::Room,
         RuleKind::Leave => Kind::Leave,
+        // "The lamp by the window", with no verb: the thing that is asked for.
+        RuleKind::Furniture if asks_for_thing(&phrase) => {
+            phrase.act = Act::State;
+            Kind::Object
+        }
         RuleKind::Related | RuleKind::Furniture => related(&phrase),
         RuleKind::Held | RuleKind::Inverse => Kind::ObjectMark,
         RuleKind::Object => object(&phrase),
@@ -264,6 +275,7 @@ fn finish(phrase: &mut Phrase, rule: RuleKind, text: &Text, side: Option<Directi
     match rule {
         RuleKind::Turn | RuleKind::Go => phrase.amount = amount(&units[phrase.first..phrase.past]),
         RuleKind::Room => phrase.side = side.or_else(|| phrase.noun().and_then(|noun| noun.side)),
+        RuleKind::Held => phrase.held = true,
         RuleKind::Inverse => {
             // "The desk has a lamp to the left of it": the desk is to the right of the lamp.
             let turned = |direction: Direction| match direction {
@@ -277,6 +289,9 @@ fn finish(phrase: &mut Phrase, rule: RuleKind, text: &Text, side: Option<Directi
                 Some(Relation::Landmark(direction)) => Some(turned(direction)),
                 _ => Some(Direction::Side),
             };
+        }
+        RuleKind::Related if phrase.kind == Kind::Landmark && phrase.directions[0].is_none() => {
+            phrase.directions[0] = phrase.noun().and_then(|noun| noun.side).or(Some(Direction::Side));
         }
         RuleKind::Related | RuleKind::View if phrase.kind != Kind::Target && phrase.directions[0].is_none() => {
             phrase.directions[0] = Some(Direction::Side);
@@ -339,6 +354,12 @@ fn apply(phrase: &mut Phrase, word: &str, person: Option<usize>) {
             phrase.from = From::Door;
             phrase.directions[0] = phrase.directions[0].or(Some(Direction::Side));
         }
+        "enter" => {
+            phrase.from = From::Door;
+            phrase.directions[0] = Some(Direction::Side);
+            phrase.entering = true;
+            phrase.nouns.clear();
+        }
         "it" => phrase.from = From::It,
         "np" => phrase.from = From::Nouns,
         "to" => phrase.relation = Some(Relation::To),
@@ -356,11 +377,21 @@ fn apply(phrase: &mut Phrase, word: &str, person: Option<usize>) {
     }
 }
 
+fn asks_for_thing(phrase: &Phrase) -> bool {
+    phrase.relation.is_none() && phrase.noun().is_some_and(|noun| can_be_carried(noun) && noun.article == Article::Definite)
+}
+
 /// What furniture or an object after a relation is: what holds the thing, or a landmark.
 fn related(phrase: &Phrase) -> Kind {
     let Some(noun) = phrase.noun() else { return Kind::Aside };
     let landmark = matches!(phrase.relation, Some(Relation::Landmark(_)));
     match noun.class {
+        // A hat that hangs over a chair is on it.
+        Some(Class::Seat | Class::Couch | Class::Bed) if phrase.relation == Some(Relation::Landmark(Direction::Above)) => Kind::Target,
+        // "To the right bed": what was meant is "to the right of the bed".
+        Some(Class::Bed | Class::Couch | Class::Seat) if noun.side.is_some() && noun.article == Article::Definite => Kind::Landmark,
+        // "On a footlocker": what the lexicon lacks and something stands on is more likely furniture than a thing.
+        Some(Class::Object) if noun.inferred && phrase.relation == Some(Relation::On) => Kind::Target,
         Some(Class::Object) => Kind::ObjectMark,
         None if landmark => Kind::ObjectMark,
         Some(Class::Lamp | Class::Plant) if landmark => Kind::ObjectMark,

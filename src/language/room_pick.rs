@@ -70,13 +70,25 @@ impl Reader<'_> {
     fn first(&self) -> Option<usize> {
         let all = 0..self.phrases.len();
         let entered = all.clone().find(|&i| self.shows_inside(i)).unwrap_or(self.phrases.len());
+        // "In the middle of the room on the left": the side is the room's, wherever it is said.
+        let of_room = |i: usize| {
+            i > 0 && self.kind(i) == Some(Kind::Side) && self.kind(i - 1) == Some(Kind::Part)
+                && self.phrases[i - 1].past == self.phrases[i].first
+                && self.phrases[i - 1].noun().is_some_and(|noun| noun.class == Some(Class::Room))
+                && self.units[self.phrases[i - 1].first..self.phrases[i - 1].past].iter().any(|unit| unit.lower == "of")
+                && self.side(i).is_some()
+        };
+        if let Some(own) = all.clone().find(|&i| of_room(i)) {
+            return Some(own);
+        }
         let picks = |i: &usize| {
             self.side(*i).is_some() && !self.is_beside_furniture(*i) && (*i < entered || self.kind(*i) == Some(Kind::Room))
         };
         let mut sided = all.clone().filter(picks);
-        let rooms = all.clone().find(|&i| self.kind(i) == Some(Kind::Room));
-        let Some(first) = sided.next() else { return rooms };
-        let named = rooms.filter(|&room| room < first && self.is_named(room) && !self.is_sided_by_next(room));
+        let rooms = all.clone().filter(|&i| self.kind(i) == Some(Kind::Room));
+        let rooms = rooms.clone().find(|&i| !self.is_passage(i)).or(rooms.clone().next());
+        let Some(first) = sided.next() else { return rooms.or_else(|| self.lone_side(entered)) };
+        let named = rooms.filter(|&room| room < first && !self.is_passage(room) && self.is_named(room) && !self.is_sided_by_next(room));
         if named.is_some() {
             return named;
         }
@@ -91,6 +103,15 @@ impl Reader<'_> {
         let later = (first + 1..inside).find(|&i| self.kind(i) == Some(Kind::Room) && self.side(i).is_some());
         let later = later.or_else(|| (first + 1..inside).find(|&i| self.side(i).is_some() && self.enters(i)));
         Some(later.unwrap_or(first))
+    }
+
+    /// "On the table to the right", and no room said: the side picks it, unless furniture itself is asked for.
+    fn lone_side(&self, entered: usize) -> Option<usize> {
+        let asked = self.phrases.iter().any(|phrase| {
+            phrase.kind == Kind::Target && phrase.relation.is_none() && !phrase.is_reached()
+        });
+        let side = (0..entered).find(|&i| self.kind(i) == Some(Kind::Side) && self.side(i).is_some());
+        side.filter(|_| !asked)
     }
 
     /// What shows that the robot is in the room already: it turns round, faces something, or has reached furniture.
@@ -131,9 +152,20 @@ impl Reader<'_> {
             .any(|noun| noun.class == Class::Room && noun.name != "room")
     }
 
+    /// A hallway or a crossing on the way.
+    fn is_passage(&self, at: usize) -> bool {
+        let phrase = &self.phrases[at];
+        phrase.noun().is_some_and(|noun| {
+            let name = &self.units[noun.head].lower;
+            name.contains("hall") || matches!(name.as_ref(), "corridor" | "intersection" | "junction")
+        })
+    }
+
     /// "In the living room … on the right", the side right after the room.
     fn is_sided_by_next(&self, room: usize) -> bool {
-        self.kind(room + 1) == Some(Kind::Side) && self.phrases[room].past == self.phrases[room + 1].first
+        self.kind(room + 1) == Some(Kind::Side)
+            && self.side(room + 1).is_some()
+            && self.phrases[room].past == self.phrases[room + 1].first
     }
 
     /// Rooms that follow belong to the pick, and so does the door at which to turn.

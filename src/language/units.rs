@@ -35,6 +35,8 @@ pub struct Unit<'t> {
     pub mended: bool,
     /// A word of English that is neither in the lexicon nor the name of a thing: it describes, or does.
     pub foreign: bool,
+    /// It was written with a capital, and not because a sentence begins.
+    pub capital: bool,
 }
 
 /// A noun as it stands in the text.
@@ -81,6 +83,17 @@ pub fn units<'l>(words: &[Word<'l>], lexicon: &'l Lexicon) -> Vec<Unit<'l>> {
         let mut unit = longest(words, at, lexicon);
         at = unit.past;
         unit.pause = pause && !units.is_empty();
+        let begins = units.last().is_none_or(|last| last.stop);
+        unit.capital = !begins && words[unit.first].text.starts_with(char::is_uppercase);
+        // "Ms. Ortiz": the point ends no sentence.
+        if is_title(&unit.lower) && at < words.len() {
+            at += usize::from(words[at].lower == ".");
+            if at < words.len() {
+                unit.lower = Cow::Owned(format!("{} {}", unit.lower, words[at].lower));
+                at += 1;
+                (unit.past, unit.capital, unit.noun, unit.foreign) = (at, true, None, false);
+            }
+        }
         if joins_number(&mut units, &unit) || is_set_aside(&unit, units.last()) {
             continue;
         }
@@ -89,6 +102,10 @@ pub fn units<'l>(words: &[Word<'l>], lexicon: &'l Lexicon) -> Vec<Unit<'l>> {
     }
     settle_ambiguous(&mut units);
     units
+}
+
+fn is_title(lower: &str) -> bool {
+    matches!(lower, "mr" | "mrs" | "ms" | "dr" | "prof")
 }
 
 fn is_pause(lower: &str) -> bool {
@@ -112,7 +129,7 @@ fn known<'l>(lower: &str, lexicon: &'l Lexicon) -> Option<Known<'l>> {
     let roles = entry.map_or(Roles::default(), |entry| entry.roles);
     // A verb or an adjective that is no plural by itself: "cans" is one of "can", "does" none of "doe".
     let noun = match entry {
-        Some(_) => lexicon.noun(lower).map(|noun| (noun, false)),
+        Some(_) => lexicon.noun(lower).map(|noun| (noun, is_plural_of(lower, &noun.name))),
         None => lexicon.any_number(lower),
     };
     let noun = noun.map(|(noun, plural)| NounUnit { name: &noun.name, class: noun.class, plural, inferred: false });
@@ -122,9 +139,14 @@ fn known<'l>(lower: &str, lexicon: &'l Lexicon) -> Option<Known<'l>> {
     (noun.is_some() || !roles.is_empty()).then_some(Known { noun, roles, stop: false, number })
 }
 
+/// "Batteries" is a way to write "battery", and more than one.
+fn is_plural_of(lower: &str, name: &str) -> bool {
+    lower.ends_with('s') && !name.ends_with('s')
+}
+
 fn unit<'l>(lower: Cow<'l, str>, known: Known<'l>, mended: bool) -> Unit<'l> {
     let Known { noun, roles, stop, number } = known;
-    Unit { first: 0, past: 0, lower, noun, roles, stop, pause: false, number, mended, foreign: false }
+    Unit { first: 0, past: 0, lower, noun, roles, stop, pause: false, number, mended, foreign: false, capital: false }
 }
 
 /// "Theres" is two words written as one.
@@ -207,7 +229,9 @@ fn is_set_aside(unit: &Unit, before: Option<&Unit>) -> bool {
     let again = before.is_some_and(|before| before.past == unit.first && before.lower == unit.lower && !unit.pause)
         && !unit.has(Role::Motion);
     let only = |role| unit.roles == Roles::of(role) && unit.noun.is_none();
-    light || addressee_clitic || again || only(Role::Filler) || only(Role::Addressee)
+    // "To the right of the robot": here it is a place.
+    let told = before.is_some_and(|before| !unit.pause && (before.has(Role::Determiner) || before.lower == "of"));
+    light || addressee_clitic || again || only(Role::Filler) || only(Role::Addressee) && !told
 }
 
 /// Words after which "right" only strengthens: "right on the table", "right behind".

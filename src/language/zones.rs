@@ -56,7 +56,7 @@ pub fn zone(units: &[Unit], first: usize) -> Option<Zone> {
     let noun_follows = unit(at).is_some_and(|unit| unit.noun.is_some() && at > first) || unit(at).is_some_and(|unit| {
         (unit.has(Role::Adjective) || unit.is_unknown()) && units.get(at + 1).is_some_and(|next| next.noun.is_some() && !next.pause)
     });
-    if noun_follows || !corner && depth.is_none() || !corner && at == start {
+    if noun_follows || is(at, &["there"]) || !corner && depth.is_none() || !corner && at == start {
         return None;
     }
     // "The other" and "the near" are parts only with a noun of place; "the front" by itself is before the hearer.
