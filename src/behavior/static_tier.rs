@@ -162,10 +162,9 @@ impl Executive<'_> {
     fn missing_reference(&self, wanted: &Wanted) -> Option<String> {
         let unseen = |noun: &str| {
             let is_furniture = self.lexicon.class_of(noun).is_some_and(|class| class != Class::Object);
-            let is_place = matches!(noun, "robot" | "move" | "room" | "wall" | "door");
-            is_furniture && !is_place && references(&self.pilot.beliefs, noun, self.lexicon).is_empty()
+            is_furniture && references(&self.pilot.beliefs, noun, self.lexicon).is_empty()
         };
-        let nouns = wanted.pairs.iter().map(|pair| pair.pair.reference.as_str());
+        let nouns = wanted.pairs.iter().filter_map(|pair| pair.pair.reference.thing());
         nouns.into_iter().find(|noun| unseen(noun)).map(|noun| noun.replace('_', " "))
     }
 

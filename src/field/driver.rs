@@ -134,7 +134,7 @@ impl RealDriver {
         log.drain(base.time_s());
         let picture = eyes.frame().map(RgbdFrame::color_png);
         self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, id)?;
-        record.set("trial", &run.trial);
+        record.put(&run.trial);
         let Some(recorder) = log.recorder else { return Ok(()) };
         let line = serde_json::to_string(record).map_err(|error| failed(error.to_string()))?;
         recorder

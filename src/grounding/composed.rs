@@ -17,9 +17,11 @@ pub fn meaning_of(chunk: &ChunkWords, lexicon: &Lexicon, continues_move: bool) -
         Tag::Irmrp => words.place(continues_move),
         Tag::Furtp => words.target(),
         // "A table and two chairs": furniture that is only mentioned is no landmark.
-        Tag::Furrp if chunk.children.is_empty() && words.only_mentions() => {
-            Meaning { score: 0.8, because: "furniture in company, without a relation".to_string(), ..Meaning::default() }
-        }
+        Tag::Furrp if chunk.children.is_empty() && words.only_mentions() => Meaning {
+            score: 0.8,
+            because: "furniture in company, without a relation".to_string(),
+            ..Meaning::default()
+        },
         Tag::Furrp => words.landmark(Class::is_furniture),
         Tag::Obrp => words.landmark(|_| true),
         Tag::Obtp => words.object(),
@@ -161,7 +163,9 @@ impl Words<'_> {
         let object = |noun: &&NounPhrase| noun.class == Some(Class::Object) && !noun.inferred;
         let known = self.nouns.iter().rev().find(object);
         let other = || self.nouns.iter().rev().find(|noun| noun.is_furniture());
-        let unknown = || self.nouns.iter().rev().find(|noun| !noun.generic && noun.class.is_none_or(|class| class == Class::Object));
+        let unknown = || {
+            self.nouns.iter().rev().find(|noun| !noun.generic && noun.class.is_none_or(|class| class == Class::Object))
+        };
         let (noun, score) = match known {
             Some(noun) => (Some(noun), 0.97),
             None => other().map_or_else(|| (unknown(), 0.6), |noun| (Some(noun), 0.85)),

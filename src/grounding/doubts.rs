@@ -106,18 +106,22 @@ fn warnings(grounding: &Grounding, reading: &Reading, text: &str, words: &[Word]
 fn why(phrase: &Phrase, reading: &Reading, words: &[Word]) -> Option<Why> {
     let tag = tag_of(phrase.kind)?;
     let (first, last) = (&reading.units[phrase.first], &reading.units[phrase.past - 1]);
-    let name = phrase.noun().filter(|noun| !noun.generic).map(|noun| {
-        crate::language::name_of(noun, &reading.units, phrase.kind == Kind::Object)
-    });
+    let name = phrase
+        .noun()
+        .filter(|noun| !noun.generic)
+        .map(|noun| crate::language::name_of(noun, &reading.units, phrase.kind == Kind::Object));
     let pair = super::phrase_pairs::pairs_of(phrase, &reading.units, None).into_iter().next();
     Some(Why {
         start: words[first.first].start,
         end: words[last.past - 1].end,
         tag,
         kind: None,
-        room: name.clone().filter(|_| phrase.kind == Kind::Room).or_else(|| phrase.side.map(|side| side.name().to_string())),
+        room: name
+            .clone()
+            .filter(|_| phrase.kind == Kind::Room)
+            .or_else(|| phrase.side.map(|side| side.name().to_string())),
         object: name.clone().filter(|_| phrase.kind == Kind::Object),
-        reference: pair.as_ref().map(|pair| pair.reference.clone()),
+        reference: pair.as_ref().map(|pair| pair.reference.to_string()),
         direction: pair.as_ref().map(|pair| pair.direction),
         target: name.filter(|_| phrase.kind == Kind::Target),
         score: if phrase.noun().is_none_or(|noun| noun.is_known() && !noun.inferred) { 0.95 } else { 0.6 }.into(),

@@ -38,7 +38,13 @@ fn noun_pairs(phrase: &Phrase, units: &[Unit]) -> Vec<Pair> {
     }
     // The second reference of "between" is told within the pair as well.
     if direction == Direction::Between && pairs.len() == 2 {
-        pairs[0].and = Some(pairs[1].reference.clone());
+        let [one, other] = [pairs[0].reference.clone(), pairs[1].reference.clone()];
+        pairs[0].and = Some(other);
+        pairs[1].and = one.thing().is_some().then_some(one).filter(|_| pairs[1].reference.thing().is_none());
+    }
+    // Between one wall and nothing else is no place.
+    if direction == Direction::Between && pairs.len() != 2 {
+        pairs.retain(|pair| pair.reference.thing().is_some());
     }
     pairs
 }

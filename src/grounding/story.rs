@@ -10,9 +10,7 @@ use crate::language::{
     Act, Article, Class, Errand, From, Kind, NounPhrase, Phrase, Reading, Recipient, Relation, Role, RoomPick,
     attributes_of, is_lead, name_of,
 };
-use crate::record::{
-    Amount, Destination, Direction, Frame, Grounding, Node, ObjectSlot, Pair, RoomSlot, RuledOut,
-};
+use crate::record::{Amount, Destination, Direction, Frame, Grounding, Node, ObjectSlot, Pair, RoomSlot, RuledOut};
 
 /// What was understood of a reading: its first errand, and the others under `then`; and what the first errand's
 /// object may be instead.
@@ -120,10 +118,6 @@ impl<'r> Story<'r> {
         name_of(noun, &self.reading.units, false)
     }
 
-    fn first_word(&self, phrase: &Phrase) -> &str {
-        &self.reading.units[phrase.first].lower
-    }
-
     fn says(&self, phrase: &Phrase, words: &[&str]) -> bool {
         self.reading.units[phrase.first..phrase.past].iter().any(|unit| words.contains(&unit.lower.as_ref()))
     }
@@ -174,7 +168,8 @@ impl<'r> Story<'r> {
         if let Some(pair) = pairs.first_mut() {
             // A quarter turn is what "turn" says anyway.
             let quarter = matches!(phrase.amount, Some(Amount::Degrees(degrees)) if degrees == 90.0);
-            pair.amount = phrase.amount.clone().filter(|amount| !turned || matches!(amount, Amount::Degrees(_)) && !quarter);
+            pair.amount =
+                phrase.amount.clone().filter(|amount| !turned || matches!(amount, Amount::Degrees(_)) && !quarter);
         }
         self.push_node(pairs);
     }
@@ -201,7 +196,10 @@ impl<'r> Story<'r> {
         if self.is_put_beside(phrase) {
             return;
         }
-        if phrase.kind == Kind::ObjectMark && !matches!(phrase.relation, Some(Relation::Landmark(_)) | None) && self.holds(phrase) {
+        if phrase.kind == Kind::ObjectMark
+            && !matches!(phrase.relation, Some(Relation::Landmark(_)) | None)
+            && self.holds(phrase)
+        {
             return;
         }
         self.note_room(phrase);
@@ -251,8 +249,9 @@ impl<'r> Story<'r> {
 
     /// "Put it in the box": the box is where it goes.
     fn holds(&mut self, phrase: &Phrase) -> bool {
-        let goes = (self.act == Act::Put || self.delivering || self.act.delivers() && phrase.relation == Some(Relation::To))
-            && phrase.relation != Some(Relation::From);
+        let goes =
+            (self.act == Act::Put || self.delivering || self.act.delivers() && phrase.relation == Some(Relation::To))
+                && phrase.relation != Some(Relation::From);
         if goes
             && self.destination.target.is_none()
             && let Some(noun) = phrase.noun()
@@ -283,7 +282,12 @@ impl<'r> Story<'r> {
         };
         let units = &self.reading.units;
         let mine = units[noun.first..noun.head].iter().any(|unit| unit.has(Role::Hearer));
-        let told = self.phrases.iter().rev().filter(|other| other.first < phrase.first).find(|other| other.kind == Kind::Target);
+        let told = self
+            .phrases
+            .iter()
+            .rev()
+            .filter(|other| other.first < phrase.first)
+            .find(|other| other.kind == Kind::Target);
         let brought_in = told.is_none_or(|target| !matches!(target.relation, Some(Relation::On | Relation::In)));
         if !noun.is_furniture() && (mine || brought_in) {
             self.hear(noun, 2);
@@ -313,7 +317,8 @@ impl<'r> Story<'r> {
     fn target_follows(&self, at: usize) -> bool {
         for next in &self.phrases[at + 1..] {
             match next.kind {
-                Kind::Side | Kind::Part | Kind::Landmark | Kind::ObjectMark | Kind::Perspective if !next.is_reached() => {}
+                Kind::Side | Kind::Part | Kind::Landmark | Kind::ObjectMark | Kind::Perspective
+                    if !next.is_reached() => {}
                 Kind::Aside | Kind::Room | Kind::RuledOut | Kind::Not | Kind::Corrected => {}
                 Kind::Object if matches!(next.act, Act::State | Act::There | Act::Find) => {}
                 Kind::Target => return !next.is_reached() || self.says(next, &["see", "find"]),
@@ -349,8 +354,13 @@ impl<'r> Story<'r> {
             self.rooms.push((name, false));
         }
         let first = self.heard.is_empty() && self.waiting.is_empty() && self.grounding.nodes.is_empty();
-        self.asked |= first && self.rooms.is_empty() && self.pick.is_none() && phrase.relation.is_none()
-            && phrase.act != Act::There && !phrase.is_reached() && noun.article != Article::Indefinite;
+        self.asked |= first
+            && self.rooms.is_empty()
+            && self.pick.is_none()
+            && phrase.relation.is_none()
+            && phrase.act != Act::There
+            && !phrase.is_reached()
+            && noun.article != Article::Indefinite;
         if phrase.recipient == Some(Recipient::Speaker) {
             self.destination.recipient = Some("speaker".to_string());
         }
@@ -383,16 +393,23 @@ impl<'r> Story<'r> {
 
     /// "Put the glass on the mantel in the dishwasher": of two places after the thing the first is where it is.
     fn is_source(&self, at: usize) -> bool {
-        let named = at > 0 && self.phrases[at - 1].kind == Kind::Object && self.phrases[at - 1].noun().is_some_and(|noun| !noun.generic);
+        let named = at > 0
+            && self.phrases[at - 1].kind == Kind::Object
+            && self.phrases[at - 1].noun().is_some_and(|noun| !noun.generic);
         let next = self.phrases.get(at + 1).filter(|next| next.first == self.phrases[at].past);
-        named && next.is_some_and(|next| next.kind == Kind::Target && matches!(next.relation, Some(Relation::In | Relation::On)))
+        named
+            && next.is_some_and(|next| {
+                next.kind == Kind::Target && matches!(next.relation, Some(Relation::In | Relation::On))
+            })
     }
 
     /// "Move the book on the desk to the shelf": where it goes is said later in the clause.
     fn says_to_later(&self, at: usize) -> bool {
         for next in &self.phrases[at + 1..] {
             match next.kind {
-                Kind::Target | Kind::ObjectMark => return matches!(next.relation, Some(Relation::To)) && !next.is_reached(),
+                Kind::Target | Kind::ObjectMark => {
+                    return matches!(next.relation, Some(Relation::To)) && !next.is_reached();
+                }
                 Kind::Room => return self.says(next, &["to", "into"]) && !next.is_moved(&self.reading.units),
                 Kind::Recipient => return true,
                 Kind::Side | Kind::Part | Kind::Landmark | Kind::Aside => {}
@@ -409,10 +426,15 @@ impl<'r> Story<'r> {
         if matches!(name.as_str(), "floor" | "ground" | "ceiling") && phrase.relation.is_some() {
             return true;
         }
-        let stairs = matches!(name.as_str(), "stairs" | "staircase" | "stair" | "step") && self.says(phrase, &["up", "down"]);
+        let stairs =
+            matches!(name.as_str(), "stairs" | "staircase" | "stair" | "step") && self.says(phrase, &["up", "down"]);
         // "The cabinet sitting on the floor", "the laptop on the table": where the thing asked for itself stands.
         let again = self.grounding.nodes.iter().any(|node| same_target(node.target.as_deref(), Some(&name)));
-        let of_asked = self.asked && !again && matches!(phrase.relation, Some(Relation::On | Relation::In | Relation::At)) && !phrase.is_reached() && self.heard.is_empty();
+        let of_asked = self.asked
+            && !again
+            && matches!(phrase.relation, Some(Relation::On | Relation::In | Relation::At))
+            && !phrase.is_reached()
+            && self.heard.is_empty();
         stairs || of_asked || self.is_waypoint(at)
     }
 
@@ -426,16 +448,20 @@ impl<'r> Story<'r> {
             match next.kind {
                 Kind::Turn => turned = true,
                 Kind::Go if turned => {}
-                Kind::Target if turned => return next.noun().is_none_or(|noun| {
-                    phrase.noun().is_none_or(|own| self.name(own) != self.name(noun))
-                }),
+                Kind::Target if turned => {
+                    return next
+                        .noun()
+                        .is_none_or(|noun| phrase.noun().is_none_or(|own| self.name(own) != self.name(noun)));
+                }
                 _ if turned => {}
                 Kind::Aside | Kind::Stop => {}
                 _ => return false,
             }
         }
         let until = self.says(phrase, &["until", "til", "till", "reach", "when", "untill"]);
-        turned && until && !self.phrases[at + 1..].iter().any(|next| next.kind == Kind::Object && next.act == Act::LookDown)
+        turned
+            && until
+            && !self.phrases[at + 1..].iter().any(|next| next.kind == Kind::Object && next.act == Act::LookDown)
     }
 
     fn push_target(&mut self, phrase: &Phrase, noun: &NounPhrase) {
@@ -506,7 +532,9 @@ impl<'r> Story<'r> {
             _ => 3,
         };
         for (index, noun) in phrase.nouns.iter().enumerate() {
-            if noun.generic || noun.is_furniture() && index > 0 && phrase.nouns[0].class == Some(Class::Object) && strength < 4 {
+            if noun.generic
+                || noun.is_furniture() && index > 0 && phrase.nouns[0].class == Some(Class::Object) && strength < 4
+            {
                 continue;
             }
             let one_of_others = noun.article == Article::Indefinite && matches!(phrase.act, Act::State | Act::There);
@@ -526,7 +554,8 @@ impl<'r> Story<'r> {
                 self.open = self.open.filter(|_| self.target_goes_on(phrase));
             }
         }
-        self.delivering = phrase.act == Act::Put && !self.heard.is_empty() && !names || self.delivering && phrase.act.delivers();
+        self.delivering =
+            phrase.act == Act::Put && !self.heard.is_empty() && !names || self.delivering && phrase.act.delivers();
         self.asked = self.asked && !names;
     }
 
@@ -598,7 +627,8 @@ impl<'r> Story<'r> {
 
     fn end(mut self) -> (Grounding, Option<ObjectSlot>) {
         self.flush();
-        let heard: Vec<ObjectSlot> = self.heard.iter().filter(|heard| heard.strength > 1).map(|heard| heard.slot.clone()).collect();
+        let heard: Vec<ObjectSlot> =
+            self.heard.iter().filter(|heard| heard.strength > 1).map(|heard| heard.slot.clone()).collect();
         self.settle_objects();
         let chosen = self.grounding.object.as_ref().map(|object| head_of(&object.name));
         let also = |slot: &ObjectSlot| self.grounding.also.iter().any(|known| known.name == slot.name);
@@ -616,21 +646,19 @@ impl<'r> Story<'r> {
         let Some(most) = self.heard.iter().map(|heard| heard.strength).max() else { return };
         let requested = most >= 4;
         let best = |heard: &&Heard| heard.strength == most;
-        let chosen = if requested {
-            self.heard.iter().find(best).cloned()
-        } else {
-            self.heard.iter().rev().find(best).cloned()
-        };
+        let chosen =
+            if requested { self.heard.iter().find(best).cloned() } else { self.heard.iter().rev().find(best).cloned() };
         let Some(chosen) = chosen else { return };
         // What is asked for is no landmark of its own.
         for node in &mut self.grounding.nodes {
-            node.pairs.retain(|pair| pair.reference != chosen.slot.name || pair.direction != Direction::Side);
+            node.pairs.retain(|pair| pair.reference.name() != chosen.slot.name || pair.direction != Direction::Side);
         }
         let same = |slot: &ObjectSlot, other: &ObjectSlot| head_of(&slot.name) == head_of(&other.name);
         let heard = std::mem::take(&mut self.heard);
         for other in heard.iter().filter(|other| !same(&other.slot, &chosen.slot)) {
             let listed = self.grounding.also.iter().any(|known| same(known, &other.slot));
-            let together = requested && other.strength == most || !requested && most == 3 && self.are_told_together(&other.slot, &chosen.slot);
+            let together = requested && other.strength == most
+                || !requested && most == 3 && self.are_told_together(&other.slot, &chosen.slot);
             if together && !listed {
                 self.grounding.also.push(other.slot.clone());
             } else if !requested && most > 1 {
@@ -679,9 +707,8 @@ impl<'r> Story<'r> {
             })
         });
         // "The bathroom, the one on the left".
-        let side = side.or_else(|| {
-            self.phrases.iter().filter(|phrase| phrase.kind == Kind::Room).find_map(|phrase| phrase.side)
-        });
+        let side = side
+            .or_else(|| self.phrases.iter().filter(|phrase| phrase.kind == Kind::Room).find_map(|phrase| phrase.side));
         let ordinal = picked.and_then(|phrases| phrases.iter().find_map(|p| p.noun().and_then(|noun| noun.ordinal)));
         let entered = self.rooms.iter().rev().find(|(_, passage)| !passage).or(self.rooms.last());
         let name = entered.map(|(name, _)| name.clone());
@@ -706,7 +733,7 @@ fn same_target(known: Option<&str>, said: Option<&str>) -> bool {
 fn face(grounding: &mut Grounding) {
     let pairs = grounding.nodes.iter_mut().flat_map(|node| &mut node.pairs);
     for pair in pairs.filter(|pair| matches!(pair.frame, Frame::Viewer | Frame::Intrinsic)) {
-        let furniture = !matches!(pair.reference.as_str(), "room" | "wall" | "door");
+        let furniture = !pair.reference.is_of_building();
         if furniture && matches!(pair.direction, Direction::Left | Direction::Right) {
             pair.frame = Frame::Facing;
         }

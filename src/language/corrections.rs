@@ -38,7 +38,9 @@ pub(super) fn rule_out(phrases: &mut [Phrase], units: &[Unit]) {
         let thing = phrase.kind == Kind::Object && phrase.noun().is_some_and(|noun| !noun.generic);
         ruled_to = (!thing).then_some(phrase.past);
         // "Not the one by the door" rules out no door.
-        if attached && phrase.kind != Kind::Room || phrase.first > 0 && matches!(units[phrase.first - 1].lower.as_ref(), "one" | "ones") {
+        if attached && phrase.kind != Kind::Room
+            || phrase.first > 0 && matches!(units[phrase.first - 1].lower.as_ref(), "one" | "ones")
+        {
             phrase.nouns.clear();
         }
         phrase.kind = Kind::RuledOut;
@@ -56,10 +58,19 @@ pub(super) fn continue_moves(phrases: &mut [Phrase], units: &[Unit]) {
             && gap.clone().all(|i| units[i].has(Role::Conjunction) || units[i].has(Role::Adverb));
         // "And to your left is a shelf" is no move.
         let told = units.get(phrase.past).is_some_and(|unit| unit.has(Role::Copula) || unit.has(Role::There));
-        let told = told || phrases.get(at + 1).is_some_and(|next| {
-            next.first == phrase.past && matches!(next.kind, Kind::Target | Kind::Object) && !next.is_reached()
-                && units[next.first].roles.meet(Roles::of(Role::Copula).with(Roles::of(Role::There)).with(Roles::of(Role::Modal)).with(Roles::of(Role::Pronoun)).with(Roles::of(Role::Determiner)))
-        });
+        let told = told
+            || phrases.get(at + 1).is_some_and(|next| {
+                next.first == phrase.past
+                    && matches!(next.kind, Kind::Target | Kind::Object)
+                    && !next.is_reached()
+                    && units[next.first].roles.meet(
+                        Roles::of(Role::Copula)
+                            .with(Roles::of(Role::There))
+                            .with(Roles::of(Role::Modal))
+                            .with(Roles::of(Role::Pronoun))
+                            .with(Roles::of(Role::Determiner)),
+                    )
+            });
         if !(moved && joined && phrase.kind == Kind::Side) || told {
             continue;
         }

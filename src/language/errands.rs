@@ -73,7 +73,9 @@ impl SoFar {
                 self.went |= phrase.kind == Kind::Target && phrase.is_reached();
                 self.requested |= request;
             }
-            Kind::Go | Kind::Turn | Kind::Side | Kind::Part => self.steps |= phrase.kind != Kind::Part || phrase.is_reached(),
+            Kind::Go | Kind::Turn | Kind::Side | Kind::Part => {
+                self.steps |= phrase.kind != Kind::Part || phrase.is_reached()
+            }
             Kind::Recipient => self.placed = true,
             _ => {}
         }
@@ -90,7 +92,8 @@ impl SoFar {
     /// "Put the milk in the fridge and the bread in the pantry": the verb is said once.
     fn shares_verb(&self, phrases: &[Phrase], at: usize, units: &[Unit]) -> Option<Act> {
         let phrase = &phrases[at];
-        let bare = phrase.act == Act::State && phrase.noun().is_some_and(|noun| !noun.generic && noun.past == phrase.past);
+        let bare =
+            phrase.act == Act::State && phrase.noun().is_some_and(|noun| !noun.generic && noun.past == phrase.past);
         let joined = phrase.first > 0 && (units[phrase.first - 1].lower == "and" || units[phrase.first].pause);
         let place = phrases.get(at + 1).is_some_and(|next| {
             next.first == phrase.past && matches!(next.kind, Kind::Target | Kind::Room | Kind::ObjectMark)
@@ -101,15 +104,21 @@ impl SoFar {
     /// "… then go to the bedroom": a place to go to when all is done, and nothing told of it.
     fn goes_elsewhere(&self, phrases: &[Phrase], at: usize, units: &[Unit]) -> bool {
         let phrase = &phrases[at];
-        let moved = phrase.kind == Kind::Room && phrase.is_moved(units) || phrase.kind == Kind::Target && phrase.is_reached();
+        let moved =
+            phrase.kind == Kind::Room && phrase.is_moved(units) || phrase.kind == Kind::Target && phrase.is_reached();
         let fresh = phrase.first > 0 && {
             let before = &units[phrase.first - 1];
-            before.lower == "then" || before.stop || units[phrase.first].pause || before.number.is_some() || before.lower == "finally"
+            before.lower == "then"
+                || before.stop
+                || units[phrase.first].pause
+                || before.number.is_some()
+                || before.lower == "finally"
         } || phrases[at - 1].kind == Kind::Aside;
         let done = self.requested && self.asked.is_some() || self.went && !self.steps && self.asked.is_none();
         let rest = &phrases[at + 1..];
         let goes_on = rest.iter().any(|next| {
-            next.kind == Kind::Object || matches!(next.kind, Kind::Turn | Kind::Go | Kind::Recipient)
+            next.kind == Kind::Object
+                || matches!(next.kind, Kind::Turn | Kind::Go | Kind::Recipient)
                 || next.kind == Kind::Target && next.act != Act::None
         });
         moved && fresh && done && !goes_on

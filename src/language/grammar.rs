@@ -366,10 +366,7 @@ impl Grammar {
 }
 
 /// The patterns that a pattern with names of parts stands for.
-fn expand(
-    pattern: &'static str,
-    macros: &HashMap<&str, Vec<&'static str>>,
-) -> Result<Vec<Vec<&'static str>>, String> {
+fn expand(pattern: &'static str, macros: &HashMap<&str, Vec<&'static str>>) -> Result<Vec<Vec<&'static str>>, String> {
     let mut all: Vec<Vec<&'static str>> = vec![Vec::new()];
     for token in pattern.split_whitespace() {
         let Some(name) = token.trim_start_matches(['<', '>', '!']).strip_prefix('%') else {

@@ -38,7 +38,6 @@ pub struct Caught {
 pub struct Text<'u, 't> {
     /// The units.
     pub units: &'u [Unit<'t>],
-    lexicon: &'u Lexicon,
     ids: Vec<u16>,
     nouns: Vec<Option<NounPhrase>>,
     relations: Vec<Option<(Relation, usize)>>,
@@ -46,12 +45,12 @@ pub struct Text<'u, 't> {
 
 impl<'u, 't> Text<'u, 't> {
     /// Looks up words, noun phrases and relations once.
-    pub fn new(units: &'u [Unit<'t>], lexicon: &'u Lexicon, grammar: &Grammar) -> Self {
+    pub fn new(units: &'u [Unit<'t>], lexicon: &Lexicon, grammar: &Grammar) -> Self {
         let all = 0..units.len();
         let relations = all.clone().map(|at| lexicon.relations().at(units, at)).collect();
         let nouns = all.map(|at| noun_phrase(units, at)).collect();
         let ids = units.iter().map(|unit| grammar.id(&unit.lower)).collect();
-        Self { units, lexicon, ids, nouns, relations }
+        Self { units, ids, nouns, relations }
     }
 
     /// The noun phrase that begins at a position.
@@ -67,11 +66,6 @@ impl<'u, 't> Text<'u, 't> {
     /// The number of the word at a position.
     pub fn id(&self, at: usize) -> u16 {
         self.ids.get(at).copied().unwrap_or(0)
-    }
-
-    /// The words it was read with.
-    pub fn lexicon(&self) -> &Lexicon {
-        self.lexicon
     }
 
     fn has(&self, at: usize, role: Role) -> bool {
@@ -239,25 +233,27 @@ impl<'u, 't> Text<'u, 't> {
 
     /// Whether a clause ends before a position.
     pub fn ends(&self, at: usize) -> bool {
-        self.units.get(at).is_none_or(|unit| {
-            unit.stop || unit.pause || unit.has(Role::Conjunction) || unit.has(Role::Correction)
-        })
+        self.units
+            .get(at)
+            .is_none_or(|unit| unit.stop || unit.pause || unit.has(Role::Conjunction) || unit.has(Role::Correction))
     }
 
     fn thing_follows(&self, at: usize) -> bool {
-        self.noun(at).is_some_and(|noun| noun.class.is_some() && noun.article == Article::None)
-            && !self.units[at].pause
+        self.noun(at).is_some_and(|noun| noun.class.is_some() && noun.article == Article::None) && !self.units[at].pause
     }
 
     /// A place may follow "it is": a preposition, a side, furniture.
     fn place_follows(&self, at: usize) -> bool {
         let Some(unit) = self.units.get(at) else { return false };
         let place = [Role::Preposition, Role::There, Role::Side, Role::Ahead, Role::Near];
-        let side = |at: usize| self.has(at, Role::Side) && self.units.get(at + 1).is_none_or(|next| next.noun.is_none());
+        let side =
+            |at: usize| self.has(at, Role::Side) && self.units.get(at + 1).is_none_or(|next| next.noun.is_none());
         place.iter().any(|role| unit.has(*role))
             || (unit.has(Role::Determiner) || unit.has(Role::Hearer)) && side(at + 1)
             || self.relation(at).is_some()
-            || self.noun(at).is_some_and(|noun| noun.class.is_some_and(|class| class.is_furniture() || class == Class::Room))
+            || self
+                .noun(at)
+                .is_some_and(|noun| noun.class.is_some_and(|class| class.is_furniture() || class == Class::Room))
     }
 
     fn take_things(&self, part: Part, at: usize, caught: &mut Caught) -> Option<usize> {
@@ -298,7 +294,9 @@ impl<'u, 't> Text<'u, 't> {
             if !comma && !and {
                 break;
             }
-            let Some(other) = self.noun(next).filter(|other| self.joins(noun, other, part, between, comma)) else { break };
+            let Some(other) = self.noun(next).filter(|other| self.joins(noun, other, part, between, comma)) else {
+                break;
+            };
             past = other.past;
             // A comma alone makes a list only when "and" comes in the end.
             if and {
@@ -317,23 +315,34 @@ impl<'u, 't> Text<'u, 't> {
             _ if between => true,
             (_, None) => !bare || part != Part::List,
             (_, Some(Class::Room | Class::Wall | Class::Opening | Class::Part | Class::Person)) => false,
-            (Some(a), Some(b)) if part == Part::List => a == b || b != Class::TableLike && b.is_furniture() == a.is_furniture() || !b.is_furniture(),
+            (Some(a), Some(b)) if part == Part::List => {
+                a == b || b != Class::TableLike && b.is_furniture() == a.is_furniture() || !b.is_furniture()
+            }
             (Some(a), Some(b)) => a.is_furniture() == b.is_furniture(),
             (None, Some(b)) => !b.is_furniture() || part == Part::List,
         };
         // "By the bed and the mug on the desk": the second begins a clause of its own.
-        let own_place = part == Part::List && !between && !comma && other.class == Some(Class::Object)
+        let own_place = part == Part::List
+            && !between
+            && !comma
+            && other.class == Some(Class::Object)
             && other.article == Article::Definite
-            && self.units.get(other.past).is_some_and(|unit| !unit.pause && unit.has(Role::Preposition) )
+            && self.units.get(other.past).is_some_and(|unit| !unit.pause && unit.has(Role::Preposition))
             && self.relation(other.past).is_some_and(|(_, past)| !self.is(past, &["it", "them"]));
         !clause && alike && !own_place && !(part == Part::List && self.units[other.first].has(Role::Act))
     }
 
     fn person(&self, at: usize, caught: &mut Caught) -> Option<usize> {
         let mut head = at;
-        while head < at + 4 && self.units.get(head).is_some_and(|unit| {
-            unit.has(Role::Determiner) || unit.has(Role::Hearer) || unit.has(Role::Adjective) || unit.has(Role::Lying) && head > at
-        }) && !self.has(head, Role::Person) {
+        while head < at + 4
+            && self.units.get(head).is_some_and(|unit| {
+                unit.has(Role::Determiner)
+                    || unit.has(Role::Hearer)
+                    || unit.has(Role::Adjective)
+                    || unit.has(Role::Lying) && head > at
+            })
+            && !self.has(head, Role::Person)
+        {
             head += 1;
         }
         if self.is(head, &["me", "us"]) && head > at {
@@ -342,7 +351,10 @@ impl<'u, 't> Text<'u, 't> {
         let unit = self.units.get(head)?;
         let person = unit.has(Role::Person) || unit.class() == Some(Class::Person);
         // A name has no article, and what is given follows it.
-        let name = head == at && unit.is_unknown() && (unit.capital || !unit.foreign) && self.noun(at + 1).is_some_and(|noun| noun.article != Article::None);
+        let name = head == at
+            && unit.is_unknown()
+            && (unit.capital || !unit.foreign)
+            && self.noun(at + 1).is_some_and(|noun| noun.article != Article::None);
         if !person && !name {
             return None;
         }
@@ -373,13 +385,21 @@ impl<'u, 't> Text<'u, 't> {
         if unit.roles.meet(within) || self.is(at, &["little", "bit", "few", "couple", "ways", "more"]) {
             return Some(at + 1);
         }
-        if self.is(at, &["a", "another", "the"]) && (self.is(at + 1, &["little", "bit", "few", "couple", "way"]) || self.has(at + 1, Role::Step)) {
+        if self.is(at, &["a", "another", "the"])
+            && (self.is(at + 1, &["little", "bit", "few", "couple", "way"]) || self.has(at + 1, Role::Step))
+        {
             return Some(at + 2);
         }
-        if self.is(at, &["of", "for"]) && (self.has(at + 1, Role::Step) || self.is(at + 1, &["a"]) || self.has(at + 1, Role::Number)) {
+        if self.is(at, &["of", "for"])
+            && (self.has(at + 1, Role::Step) || self.is(at + 1, &["a"]) || self.has(at + 1, Role::Number))
+        {
             return Some(at + 1);
         }
-        if self.is(at, &["on", "up", "down", "over", "out", "back", "in"]) && (self.is(at + 1, &["to", "into", "toward", "towards", "until", "in", "over"]) || self.has(at + 1, Role::Extent) || self.ends(at + 1)) {
+        if self.is(at, &["on", "up", "down", "over", "out", "back", "in"])
+            && (self.is(at + 1, &["to", "into", "toward", "towards", "until", "in", "over"])
+                || self.has(at + 1, Role::Extent)
+                || self.ends(at + 1))
+        {
             return Some(at + 1);
         }
         self.passage(at)

@@ -40,8 +40,8 @@ pub use phrases::{Act, From, Kind, Phrase, Reading, Recipient};
 pub use relations::Relation;
 pub use room_pick::{RoomPick, is_lead};
 pub use stage::Chunker;
-pub use vocabulary::{DamagedTable, NounClass, Vocabulary, VocabularyNoun};
 pub use units::{NounUnit, Unit, tag as tag_words, units};
+pub use vocabulary::{DamagedTable, NounClass, Vocabulary, VocabularyNoun};
 pub use word_class::{Class, Role};
 
 use std::ops::Range;

@@ -99,7 +99,23 @@ fn past_partitive(units: &[Unit], first: usize) -> usize {
     let word = |at: usize| units.get(at).map_or("", |unit| unit.lower.as_ref());
     let partial = matches!(
         word(first + article),
-        "one" | "all" | "both" | "each" | "couple" | "pair" | "pairs" | "kind" | "sort" | "type" | "set" | "bunch" | "lot" | "lots" | "some" | "two" | "rest"
+        "one"
+            | "all"
+            | "both"
+            | "each"
+            | "couple"
+            | "pair"
+            | "pairs"
+            | "kind"
+            | "sort"
+            | "type"
+            | "set"
+            | "bunch"
+            | "lot"
+            | "lots"
+            | "some"
+            | "two"
+            | "rest"
     );
     if partial && word(first + article + 1) == "of" { first + article + 2 } else { first }
 }
@@ -164,7 +180,8 @@ impl<'u> Reader<'u> {
             return true;
         }
         // "Brian 's desk", "my mother 's chair".
-        let owner = unit.lower == "'s" && at > start && (self.units[at - 1].is_unknown() || self.has(at - 1, Role::Person));
+        let owner =
+            unit.lower == "'s" && at > start && (self.units[at - 1].is_unknown() || self.has(at - 1, Role::Person));
         if owner {
             self.phrase.article = Article::Definite;
         }
@@ -172,9 +189,16 @@ impl<'u> Reader<'u> {
         // "The dog's leash".
         let thing_owns = unit.noun.is_some()
             && self.next(at + 1).is_some_and(|next| next.lower == "'s")
-            && self.next(at + 2).is_some_and(|next| next.noun.is_some() || self.leads_on(at + 2) && self.next(at + 3).is_some_and(|last| last.noun.is_some()))
+            && self.next(at + 2).is_some_and(|next| {
+                next.noun.is_some()
+                    || self.leads_on(at + 2) && self.next(at + 3).is_some_and(|last| last.noun.is_some())
+            })
             && !self.next(at + 2).is_some_and(|next| next.has(Role::Determiner) || next.has(Role::Preposition));
-        let owner = owner || unit.lower == "'s" && at > start && self.units[at - 1].noun.is_some() && self.next(at + 1).is_some_and(|next| next.noun.is_some() || self.leads_on(at + 1));
+        let owner = owner
+            || unit.lower == "'s"
+                && at > start
+                && self.units[at - 1].noun.is_some()
+                && self.next(at + 1).is_some_and(|next| next.noun.is_some() || self.leads_on(at + 1));
         owner || owns || thing_owns || leads && at == start && matches!(unit.lower.as_ref(), "all" | "both")
     }
 
@@ -232,7 +256,8 @@ impl<'u> Reader<'u> {
             return !unit.has(Role::Act) || at > start || self.leads_on(at + 1) && !self.has(at + 1, Role::Determiner);
         }
         let strong = matches!(unit.lower.as_ref(), "very" | "immediate" | "really" | "kind" | "sort" | "only");
-        strong && at > start && self.leads_on(at + 1) || unit.is_unknown() && unit.lower.chars().any(char::is_alphabetic)
+        strong && at > start && self.leads_on(at + 1)
+            || unit.is_unknown() && unit.lower.chars().any(char::is_alphabetic)
     }
 
     /// The noun at the reader's place, with the nouns it is made of and what it holds.
@@ -276,8 +301,7 @@ impl<'u> Reader<'u> {
 
     /// "Computer desk": nouns in a row are one, the last says what it is; a room before it says where.
     fn compound(&mut self, start: usize) {
-        let bare = self.phrase.head == start
-            && (start == 0 || self.units[start].pause || self.units[start - 1].stop);
+        let bare = self.phrase.head == start && (start == 0 || self.units[start].pause || self.units[start - 1].stop);
         while let Some(next) = self.next(self.phrase.head + 1) {
             if self.goes_on_unknown(next, bare) {
                 self.phrase.head += 1;
@@ -308,7 +332,9 @@ impl<'u> Reader<'u> {
                     self.phrase.room = Some(head);
                     self.phrase.name = head + 1;
                 }
-                Class::TableLike | Class::Seat | Class::Couch | Class::Bed | Class::Storage if noun.class.is_furniture() => {
+                Class::TableLike | Class::Seat | Class::Couch | Class::Bed | Class::Storage
+                    if noun.class.is_furniture() =>
+                {
                     self.phrase.name = head + 1;
                 }
                 _ => {}
@@ -324,8 +350,14 @@ impl<'u> Reader<'u> {
         let thing = matches!(self.phrase.class, Some(Class::Object | Class::Plant | Class::Appliance | Class::Screen));
         let verb = ["s", "ed", "ing", "en"].iter().any(|ending| next.lower.ends_with(ending));
         let ends = self.unit(self.phrase.head + 2).is_none_or(|after| {
-            after.pause || after.stop || after.has(Role::Copula) || after.has(Role::Preposition) || after.has(Role::Modal)
-                || after.has(Role::Conjunction) || after.has(Role::Has) || after.has(Role::Relative)
+            after.pause
+                || after.stop
+                || after.has(Role::Copula)
+                || after.has(Role::Preposition)
+                || after.has(Role::Modal)
+                || after.has(Role::Conjunction)
+                || after.has(Role::Has)
+                || after.has(Role::Relative)
         });
         next.is_unknown() && thing && !bare && !self.phrase.plural && !verb && ends
     }
@@ -349,7 +381,9 @@ impl<'u> Reader<'u> {
     fn unnamed(mut self, start: usize) -> Option<NounPhrase> {
         let at = self.at;
         let here = self.unit(at).filter(|unit| at == start || !unit.pause);
-        if here.is_some_and(|unit| unit.has(Role::Generic) && !unit.roles.meet(VERBS) || at > start && unit.has(Role::Generic)) {
+        if here.is_some_and(|unit| {
+            unit.has(Role::Generic) && !unit.roles.meet(VERBS) || at > start && unit.has(Role::Generic)
+        }) {
             let unit = self.unit(at)?;
             // "Something to drink" is a drink.
             let purpose = self.is(at + 1, &["to"]) && self.is(at + 2, &["drink", "eat", "read", "wear", "write"]);
@@ -382,7 +416,8 @@ impl<'u> Reader<'u> {
 /// Whether a word that the lexicon does not have names a kind rather than describes: "gaming", "alphabet".
 fn names_kind(unit: &Unit) -> bool {
     let noun = unit.noun.is_some_and(|noun| noun.class == Class::Object) && !unit.has(Role::Adjective);
-    noun || unit.is_unknown() && !unit.foreign && !describes_by_ending(&unit.lower) || unit.foreign && unit.lower.ends_with("ing")
+    noun || unit.is_unknown() && !unit.foreign && !describes_by_ending(&unit.lower)
+        || unit.foreign && unit.lower.ends_with("ing")
 }
 
 fn describes_by_ending(word: &str) -> bool {
@@ -437,8 +472,7 @@ fn one_name<'u>(unit: &'u Unit, counted: bool) -> Cow<'u, str> {
 /// Colour, size, shape and material, as said.
 pub fn attributes_of(phrase: &NounPhrase, units: &[Unit]) -> Vec<String> {
     let before = units[phrase.first..phrase.name].iter();
-    let told = before.filter(|unit| {
-        unit.has(Role::Adjective) || unit.is_unknown() && unit.lower.chars().all(char::is_alphabetic)
-    });
+    let told = before
+        .filter(|unit| unit.has(Role::Adjective) || unit.is_unknown() && unit.lower.chars().all(char::is_alphabetic));
     told.map(|unit| unit.lower.to_string()).filter(|word| !matches!(word.as_str(), "other" | "same")).collect()
 }

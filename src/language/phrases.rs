@@ -378,7 +378,8 @@ fn apply(phrase: &mut Phrase, word: &str, person: Option<usize>) {
 }
 
 fn asks_for_thing(phrase: &Phrase) -> bool {
-    phrase.relation.is_none() && phrase.noun().is_some_and(|noun| can_be_carried(noun) && noun.article == Article::Definite)
+    phrase.relation.is_none()
+        && phrase.noun().is_some_and(|noun| can_be_carried(noun) && noun.article == Article::Definite)
 }
 
 /// What furniture or an object after a relation is: what holds the thing, or a landmark.
@@ -387,9 +388,15 @@ fn related(phrase: &Phrase) -> Kind {
     let landmark = matches!(phrase.relation, Some(Relation::Landmark(_)));
     match noun.class {
         // A hat that hangs over a chair is on it.
-        Some(Class::Seat | Class::Couch | Class::Bed) if phrase.relation == Some(Relation::Landmark(Direction::Above)) => Kind::Target,
+        Some(Class::Seat | Class::Couch | Class::Bed)
+            if phrase.relation == Some(Relation::Landmark(Direction::Above)) =>
+        {
+            Kind::Target
+        }
         // "To the right bed": what was meant is "to the right of the bed".
-        Some(Class::Bed | Class::Couch | Class::Seat) if noun.side.is_some() && noun.article == Article::Definite => Kind::Landmark,
+        Some(Class::Bed | Class::Couch | Class::Seat) if noun.side.is_some() && noun.article == Article::Definite => {
+            Kind::Landmark
+        }
         // "On a footlocker": what the lexicon lacks and something stands on is more likely furniture than a thing.
         Some(Class::Object) if noun.inferred && phrase.relation == Some(Relation::On) => Kind::Target,
         Some(Class::Object) => Kind::ObjectMark,
@@ -402,7 +409,8 @@ fn related(phrase: &Phrase) -> Kind {
 
 /// Furniture that is asked for is a target; all else is an object. What a statement is about, its place decides.
 fn object(phrase: &Phrase) -> Kind {
-    let fixed = phrase.noun().is_some_and(|noun| noun.is_furniture() && !(can_be_carried(noun) && phrase.act.is_request()));
+    let fixed =
+        phrase.noun().is_some_and(|noun| noun.is_furniture() && !(can_be_carried(noun) && phrase.act.is_request()));
     if fixed && phrase.act != Act::State { Kind::Target } else { Kind::Object }
 }
 

@@ -53,9 +53,6 @@ pub struct Relations {
     added: usize,
 }
 
-/// Words stepped over before a relation: "right behind", "directly next to".
-pub const BEFORE: Roles = Roles::of(Role::Adverb).with(Roles::of(Role::Lying));
-
 impl Relations {
     /// The relations this program ships.
     pub fn embedded() -> Self {

@@ -72,7 +72,9 @@ impl Reader<'_> {
         let entered = all.clone().find(|&i| self.shows_inside(i)).unwrap_or(self.phrases.len());
         // "In the middle of the room on the left": the side is the room's, wherever it is said.
         let of_room = |i: usize| {
-            i > 0 && self.kind(i) == Some(Kind::Side) && self.kind(i - 1) == Some(Kind::Part)
+            i > 0
+                && self.kind(i) == Some(Kind::Side)
+                && self.kind(i - 1) == Some(Kind::Part)
                 && self.phrases[i - 1].past == self.phrases[i].first
                 && self.phrases[i - 1].noun().is_some_and(|noun| noun.class == Some(Class::Room))
                 && self.units[self.phrases[i - 1].first..self.phrases[i - 1].past].iter().any(|unit| unit.lower == "of")
@@ -82,13 +84,17 @@ impl Reader<'_> {
             return Some(own);
         }
         let picks = |i: &usize| {
-            self.side(*i).is_some() && !self.is_beside_furniture(*i) && (*i < entered || self.kind(*i) == Some(Kind::Room))
+            self.side(*i).is_some()
+                && !self.is_beside_furniture(*i)
+                && (*i < entered || self.kind(*i) == Some(Kind::Room))
         };
         let mut sided = all.clone().filter(picks);
         let rooms = all.clone().filter(|&i| self.kind(i) == Some(Kind::Room));
         let rooms = rooms.clone().find(|&i| !self.is_passage(i)).or(rooms.clone().next());
         let Some(first) = sided.next() else { return rooms.or_else(|| self.lone_side(entered)) };
-        let named = rooms.filter(|&room| room < first && !self.is_passage(room) && self.is_named(room) && !self.is_sided_by_next(room));
+        let named = rooms.filter(|&room| {
+            room < first && !self.is_passage(room) && self.is_named(room) && !self.is_sided_by_next(room)
+        });
         if named.is_some() {
             return named;
         }
@@ -107,9 +113,10 @@ impl Reader<'_> {
 
     /// "On the table to the right", and no room said: the side picks it, unless furniture itself is asked for.
     fn lone_side(&self, entered: usize) -> Option<usize> {
-        let asked = self.phrases.iter().any(|phrase| {
-            phrase.kind == Kind::Target && phrase.relation.is_none() && !phrase.is_reached()
-        });
+        let asked = self
+            .phrases
+            .iter()
+            .any(|phrase| phrase.kind == Kind::Target && phrase.relation.is_none() && !phrase.is_reached());
         let side = (0..entered).find(|&i| self.kind(i) == Some(Kind::Side) && self.side(i).is_some());
         side.filter(|_| !asked)
     }
@@ -118,7 +125,12 @@ impl Reader<'_> {
     fn shows_inside(&self, at: usize) -> bool {
         let phrase = &self.phrases[at];
         match phrase.kind {
-            Kind::Turn => phrase.directions[0] == Some(Direction::Back) && self.units[phrase.first..phrase.past].iter().any(|unit| matches!(unit.lower.as_ref(), "around" | "round")),
+            Kind::Turn => {
+                phrase.directions[0] == Some(Direction::Back)
+                    && self.units[phrase.first..phrase.past]
+                        .iter()
+                        .any(|unit| matches!(unit.lower.as_ref(), "around" | "round"))
+            }
             Kind::Perspective => phrase.from == From::Nouns,
             Kind::Target | Kind::Landmark => phrase.is_reached(),
             _ => false,

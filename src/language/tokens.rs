@@ -57,7 +57,8 @@ fn is_invisible(c: char) -> bool {
 
 /// "Table--behind the couch": hyphens side by side are a dash, and so is one at a word's edge.
 fn is_dash(bytes: &[u8], at: usize) -> bool {
-    let letter = |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(|b| b.is_ascii_alphanumeric() || *b >= 128);
+    let letter =
+        |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(|b| b.is_ascii_alphanumeric() || *b >= 128);
     bytes[at] == b'-' && !(letter(at.checked_sub(1)) && letter(Some(at + 1)))
 }
 

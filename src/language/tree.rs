@@ -37,7 +37,12 @@ impl Node {
 }
 
 /// The chunk tree of a description: each errand with the phrases that pick its room.
-pub fn build(errands: &[(Range<usize>, Option<RoomPick>)], phrases: &[Phrase], units: &[Unit], words: &[Word]) -> Vec<Chunk> {
+pub fn build(
+    errands: &[(Range<usize>, Option<RoomPick>)],
+    phrases: &[Phrase],
+    units: &[Unit],
+    words: &[Word],
+) -> Vec<Chunk> {
     let mut builder = Builder { roots: Vec::new(), object: None, target: None };
     for (range, picked) in errands {
         builder.add_errand(&phrases[range.clone()], picked.as_ref());
@@ -53,16 +58,16 @@ struct Builder {
 
 impl Builder {
     fn add_errand(&mut self, phrases: &[Phrase], picked: Option<&RoomPick>) {
-      for (i, phrase) in phrases.iter().enumerate() {
-        match picked {
-            Some(pick) if i == pick.first => self.add_room(pick, phrases),
-            Some(pick) if pick.covers(i) => {}
-            // Motions before the room is entered lead to it and make nothing of their own.
-            Some(pick) if i < pick.first && (is_lead(phrase) || pick.on_the_way.contains(&i)) => {}
-            Some(pick) if pick.restated.contains(&i) => self.restate_room(phrase),
-            _ => self.add(phrase),
+        for (i, phrase) in phrases.iter().enumerate() {
+            match picked {
+                Some(pick) if i == pick.first => self.add_room(pick, phrases),
+                Some(pick) if pick.covers(i) => {}
+                // Motions before the room is entered lead to it and make nothing of their own.
+                Some(pick) if i < pick.first && (is_lead(phrase) || pick.on_the_way.contains(&i)) => {}
+                Some(pick) if pick.restated.contains(&i) => self.restate_room(phrase),
+                _ => self.add(phrase),
+            }
         }
-      }
     }
 
     fn add(&mut self, phrase: &Phrase) {

@@ -41,7 +41,10 @@ pub fn zone(units: &[Unit], first: usize) -> Option<Zone> {
             }
             "middle" | "center" | "centre" => depth = Some(Direction::Central),
             "front" => depth = Some(Direction::Front),
-            "near" | "close" | "nearest" | "closest" if at + 1 < units.len() && (is(at + 1, &["end", "side", "corner", "half", "part", "left", "right"])) => {
+            "near" | "close" | "nearest" | "closest"
+                if at + 1 < units.len()
+                    && (is(at + 1, &["end", "side", "corner", "half", "part", "left", "right"])) =>
+            {
                 depth = Some(Direction::Front);
             }
             "side" | "half" | "part" | "area" | "hand" if at > start => head = true,
@@ -53,15 +56,19 @@ pub fn zone(units: &[Unit], first: usize) -> Option<Zone> {
     }
     let corner = unit(at).is_some_and(|unit| unit.class() == Some(Class::Part));
     at += usize::from(corner);
-    let noun_follows = unit(at).is_some_and(|unit| unit.noun.is_some() && at > first) || unit(at).is_some_and(|unit| {
-        (unit.has(Role::Adjective) || unit.is_unknown()) && units.get(at + 1).is_some_and(|next| next.noun.is_some() && !next.pause)
-    });
+    let noun_follows = unit(at).is_some_and(|unit| unit.noun.is_some() && at > first)
+        || unit(at).is_some_and(|unit| {
+            (unit.has(Role::Adjective) || unit.is_unknown())
+                && units.get(at + 1).is_some_and(|next| next.noun.is_some() && !next.pause)
+        });
     if noun_follows || is(at, &["there"]) || !corner && depth.is_none() || !corner && at == start {
         return None;
     }
     // "The other" and "the near" are parts only with a noun of place; "the front" by itself is before the hearer.
     let only_far = far && !head && !corner && lateral.is_none();
-    if only_far && is(at - 1, &["other", "opposite", "further", "farther", "far"]) || depth == Some(Direction::Front) && !head && !corner && !is(at, &["of"]) {
+    if only_far && is(at - 1, &["other", "opposite", "further", "farther", "far"])
+        || depth == Some(Direction::Front) && !head && !corner && !is(at, &["of"])
+    {
         return None;
     }
     let directions = match (lateral, depth, corner) {

@@ -47,7 +47,7 @@ impl Perceiver {
 
     fn add(&self, name: &str, frame: &RgbdFrame, record: &mut Record) -> Result<Note, StageError> {
         let view = self.look(name, frame)?;
-        record.set("detections", &view.furniture);
+        record.put(&view.furniture);
         Ok(Note::Done)
     }
 
@@ -98,7 +98,7 @@ impl Stage for Perceiver {
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
-        let detections: Vec<Detection> = record.require("detections", "it is what `perceive` adds")?;
+        let detections: Vec<Detection> = record.require_part("it is what `perceive` adds")?;
         let mut lines: Vec<String> = record.get::<String>("frame")?.into_iter().collect();
         lines.extend(detections.iter().map(text_line));
         Ok(lines.join("\n"))

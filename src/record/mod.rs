@@ -12,19 +12,24 @@ mod detection;
 mod grounding;
 mod hof;
 mod line;
+mod part;
 mod plan;
 mod precision;
+mod reference;
 mod stage;
 mod trial;
 
 pub use chunk::{Chunk, Tag, Token};
 pub use detection::Detection;
 pub use grounding::{
-    Amount, Destination, Direction, Frame, Grounding, Node, ObjectSlot, Pair, Reading, RoomSlot, RuledOut, TextSpan, Why,
+    Amount, Destination, Direction, Frame, Grounding, Node, ObjectSlot, Pair, Reading, RoomSlot, RuledOut, TextSpan,
+    Why,
 };
 pub use hof::{DegreeOfTruth, Hof, HofForce};
 pub use line::{FieldError, Record, message_without_position};
-pub use plan::{Action, Plan, SearchPair};
+pub use part::Part;
+pub use plan::{Action, Motion, Plan, SearchPair};
 pub use precision::Rounded;
+pub use reference::Reference;
 pub use stage::{Note, Stage, StageError};
 pub use trial::{ActionReport, Outcome, PathPoint, Trial};

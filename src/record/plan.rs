@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Amount, Direction, Frame, Pair};
+use super::{Amount, Direction, Frame, Pair, Reference};
 
 /// A queue of actions for the three subtasks: enter the room, navigate inside it, find the object.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -33,7 +33,8 @@ pub enum Action {
     /// Go straight, or turn to one of the room's axes.
     Move {
         /// Front goes; left, right and back turn.
-        direction: Direction,
+        #[serde(rename = "direction")]
+        motion: Motion,
         /// How far, or until what.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         amount: Option<Amount>,
@@ -41,7 +42,7 @@ pub enum Action {
     /// Go to a part of the room, a wall, a door or past a landmark.
     Go {
         /// `room`, `wall`, `door`, or a noun.
-        reference: String,
+        reference: Reference,
         /// Which part or side of it.
         direction: Direction,
         /// The axes in which the direction is read.
@@ -68,6 +69,36 @@ pub enum Action {
         /// Noun of the object; null for any portable object on the target.
         object: Option<String>,
     },
+}
+
+/// A motion inside the room: one that goes, and three that turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Motion {
+    /// Go straight ahead.
+    #[serde(rename = "front")]
+    Ahead,
+    /// Turn a quarter to the left.
+    #[serde(rename = "left")]
+    TurnLeft,
+    /// Turn a quarter to the right.
+    #[serde(rename = "right")]
+    TurnRight,
+    /// Turn round.
+    #[serde(rename = "back")]
+    TurnRound,
+}
+
+impl Motion {
+    /// The motion that a direction of a move asks for; nothing for one that is no motion.
+    pub const fn from_direction(direction: Direction) -> Option<Self> {
+        match direction {
+            Direction::Front => Some(Self::Ahead),
+            Direction::Left => Some(Self::TurnLeft),
+            Direction::Right => Some(Self::TurnRight),
+            Direction::Back => Some(Self::TurnRound),
+            _ => None,
+        }
+    }
 }
 
 /// A pair of a search with the other frames to try.

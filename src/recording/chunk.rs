@@ -7,7 +7,7 @@ use mcap::read::ChannelAccumulator;
 use mcap::records::op;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
-use super::log_reader::{LONGEST_RECORD, link};
+use super::link::{LONGEST_RECORD, link};
 
 /// What a chunk held.
 pub(super) struct Unpacked {

@@ -12,10 +12,8 @@ use mcap::read::{ChannelAccumulator, parse_record};
 use mcap::records::{Record, op};
 
 use super::chunk::unpack;
+use super::link::{LONGEST_RECORD, link};
 use super::{LogError, Loss};
-
-/// No record is longer than this: a length beyond it is damage, bytes.
-pub(super) const LONGEST_RECORD: u64 = 1 << 28;
 
 /// The messages of a log in its order, those of a chunk by their time, with everything that was lost on the way.
 ///
@@ -195,29 +193,4 @@ impl<R: Read> Iterator for LogReader<R> {
         }
         self.ready.pop_front()
     }
-}
-
-/// Takes a schema, channel or message record; a message comes out with its channel.
-pub(super) fn link(
-    opcode: u8,
-    body: &[u8],
-    links: &mut ChannelAccumulator<'static>,
-) -> mcap::McapResult<Option<Message<'static>>> {
-    match parse_record(opcode, body)? {
-        Record::Schema { header, data } => links.add_schema_from_slice(header, &data)?,
-        Record::Channel(channel) => links.add_channel(channel)?,
-        Record::Message { header, data } => {
-            let unknown = mcap::McapError::UnknownChannel(header.sequence, header.channel_id);
-            let channel = links.get(header.channel_id).ok_or(unknown)?;
-            return Ok(Some(Message {
-                channel,
-                sequence: header.sequence,
-                log_time: header.log_time,
-                publish_time: header.publish_time,
-                data: data.into_owned().into(),
-            }));
-        }
-        _ => {}
-    }
-    Ok(None)
 }

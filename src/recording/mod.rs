@@ -13,6 +13,7 @@ mod error;
 mod follow;
 mod frame_reader;
 mod frame_writer;
+mod link;
 #[cfg_attr(not(feature = "live"), path = "no_live.rs")]
 mod live;
 mod log_reader;
