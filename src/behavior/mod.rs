@@ -10,6 +10,7 @@
 
 mod approach;
 mod beliefs;
+mod delivery;
 mod driving;
 mod executive;
 mod free_space;

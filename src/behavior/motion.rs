@@ -78,7 +78,7 @@ pub fn step_for(action: &Action, pose: Pose, room: &RoomFrame, landmark: Option<
             Reference::Door => Some(room.part(pose, Direction::Front)),
             Reference::Move | Reference::Robot | Reference::Thing(_) => landmark.map(|at| pass(pose, at)),
         },
-        Action::Enter { .. } | Action::Search { .. } | Action::Find { .. } => None,
+        Action::Enter { .. } | Action::Search { .. } | Action::Find { .. } | Action::Deliver { .. } => None,
     }
 }
 

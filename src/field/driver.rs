@@ -169,6 +169,7 @@ fn run(
         spl: None,
         collisions: 0,
         min_clearance_m: None,
+        delivered: report.delivered,
         actions: report.journal.actions,
         path,
     };

@@ -139,6 +139,10 @@ impl<'r> Story<'r> {
         let Some(name) = self.room_name(phrase) else { return };
         let source = self.says(phrase, &["from", "of"]) && !self.delivering;
         let into = self.says(phrase, &["to", "into", "in", "inside", "for", "at"]);
+        // The hall is on the way unless the thing is there.
+        if name.contains("hall") && self.says(phrase, &["down", "along", "through", "of", "from", "off", "across"]) {
+            return;
+        }
         let brings = self.act.delivers() && self.says(phrase, &["to", "into"]);
         let puts = self.act == Act::Put && into;
         let given = self.delivering && self.destination.recipient.is_some() && into;
@@ -276,10 +280,7 @@ impl<'r> Story<'r> {
 
     /// "There's a stand with my dentures on it": what it holds may be what is asked for.
     fn take_held(&mut self, phrase: &Phrase) {
-        let Some(noun) = phrase.noun().filter(|noun| phrase.held && noun.article == Article::Definite && !noun.generic)
-        else {
-            return;
-        };
+        let Some(noun) = phrase.noun().filter(|noun| phrase.held && !noun.generic) else { return };
         let units = &self.reading.units;
         let mine = units[noun.first..noun.head].iter().any(|unit| unit.has(Role::Hearer));
         let told = self
@@ -289,8 +290,13 @@ impl<'r> Story<'r> {
             .filter(|other| other.first < phrase.first)
             .find(|other| other.kind == Kind::Target);
         let brought_in = told.is_none_or(|target| !matches!(target.relation, Some(Relation::On | Relation::In)));
-        if !noun.is_furniture() && (mine || brought_in) {
-            self.hear(noun, 2);
+        let told_there = told.is_some_and(|target| target.act == Act::There);
+        match noun.article {
+            _ if noun.is_furniture() => {}
+            Article::Definite if mine || brought_in => self.hear(noun, 2),
+            // "There's a dresser with a humidifier on top", and nothing else is named.
+            Article::Indefinite if told_there => self.hear(noun, 0),
+            _ => {}
         }
     }
 
@@ -332,7 +338,9 @@ impl<'r> Story<'r> {
 
     fn target(&mut self, at: usize) {
         let phrase = &self.phrases[at];
-        let Some(noun) = phrase.noun().copied() else { return };
+        // "Until it reaches the table or the desk": the last.
+        let either = phrase.nouns.len() > 1 && self.says(phrase, &["or"]);
+        let Some(noun) = (if either { phrase.nouns.last() } else { phrase.noun() }).copied() else { return };
         if phrase.act != Act::None {
             self.act = phrase.act;
         }
@@ -438,30 +446,37 @@ impl<'r> Story<'r> {
         stairs || of_asked || self.is_waypoint(at)
     }
 
+    /// Furniture that is gone to, or turned at, and not the last.
     fn is_waypoint(&self, at: usize) -> bool {
         let phrase = &self.phrases[at];
-        if !phrase.is_reached() {
+        let turned_at = at > 0
+            && phrase.relation == Some(Relation::At)
+            && self.phrases[at - 1].kind == Kind::Turn
+            && self.phrases[at - 1].past == phrase.first;
+        if !phrase.is_reached() && !turned_at {
             return false;
         }
-        let mut turned = false;
-        for next in &self.phrases[at + 1..] {
-            match next.kind {
-                Kind::Turn => turned = true,
-                Kind::Go if turned => {}
-                Kind::Target if turned => {
-                    return next
-                        .noun()
-                        .is_none_or(|noun| phrase.noun().is_none_or(|own| self.name(own) != self.name(noun)));
-                }
-                _ if turned => {}
-                Kind::Aside | Kind::Stop => {}
-                _ => return false,
-            }
+        let own = phrase.noun().map(|noun| self.name(noun));
+        let rest = &self.phrases[at + 1..];
+        let other = |next: &&Phrase| {
+            next.kind == Kind::Target
+                && next.noun().map(|noun| self.name(noun)).is_some_and(|name| {
+                    !same_target(own.as_deref(), Some(&name)) && !matches!(name.as_str(), "floor" | "ground")
+                })
+        };
+        let again = rest
+            .iter()
+            .filter(|next| next.kind == Kind::Target)
+            .any(|next| next.noun().is_some_and(|noun| same_target(own.as_deref(), Some(&self.name(noun)))));
+        if rest.iter().any(|next| other(&next)) && !again {
+            return true;
         }
+        let turns = rest
+            .iter()
+            .find(|next| !matches!(next.kind, Kind::Aside | Kind::Stop))
+            .is_some_and(|next| next.kind == Kind::Turn);
         let until = self.says(phrase, &["until", "til", "till", "reach", "when", "untill"]);
-        turned
-            && until
-            && !self.phrases[at + 1..].iter().any(|next| next.kind == Kind::Object && next.act == Act::LookDown)
+        turns && until && !again && !rest.iter().any(|next| next.kind == Kind::Object && next.act == Act::LookDown)
     }
 
     fn push_target(&mut self, phrase: &Phrase, noun: &NounPhrase) {
@@ -644,6 +659,8 @@ impl<'r> Story<'r> {
     /// Of the things heard, the one asked for, the ones asked for beside it, and those that only lie near by.
     fn settle_objects(&mut self) {
         let Some(most) = self.heard.iter().map(|heard| heard.strength).max() else { return };
+        // What only lies with other things is no company of itself.
+        self.heard.retain(|heard| heard.strength > 0 || most == 0);
         let requested = most >= 4;
         let best = |heard: &&Heard| heard.strength == most;
         let chosen =

@@ -33,6 +33,8 @@ pub struct Path {
 
 /// What a longer phrase is worth beside shorter ones that cost the same.
 const LENGTH_BONUS: f32 = 0.02;
+/// What the costs of the grammar are worth beside those of words left out.
+const PHRASE_SCALE: f32 = 0.7;
 /// What a phrase costs more when its noun is one that nobody knows, or whose class was inferred.
 const UNKNOWN_NOUN: f32 = 0.5;
 const INFERRED_NOUN: f32 = 0.1;
@@ -58,7 +60,8 @@ pub fn cheapest(text: &Text, grammar: &Grammar) -> Path {
             }
             let rule = grammar.rule(number);
             let Some((past, caught)) = text.fit(&rule.elements, at) else { return };
-            let cost = rule.cost + noun_cost(text, &caught, rule.kind) - LENGTH_BONUS * (past - at) as f32;
+            let cost =
+                PHRASE_SCALE * rule.cost + noun_cost(text, &caught, rule.kind) - LENGTH_BONUS * (past - at) as f32;
             if best[at] + cost < best[past] {
                 best[past] = best[at] + cost;
                 came[past] = Some(Edge { rule: number, first: at, past, caught, cost });

@@ -134,6 +134,8 @@ pub enum Part {
     Room,
     Opening,
     Sided,
+    SideWall,
+    Bare,
     Wall,
     Person,
     Relation,
@@ -152,7 +154,7 @@ pub enum Part {
     To,
 }
 
-const PARTS: [(&str, Part); 24] = [
+const PARTS: [(&str, Part); 26] = [
     ("thing", Part::Thing),
     ("things", Part::Things),
     ("objects", Part::Objects),
@@ -161,6 +163,8 @@ const PARTS: [(&str, Part); 24] = [
     ("room", Part::Room),
     ("opening", Part::Opening),
     ("sided", Part::Sided),
+    ("sidewall", Part::SideWall),
+    ("bare", Part::Bare),
     ("wall", Part::Wall),
     ("person", Part::Person),
     ("rel", Part::Relation),

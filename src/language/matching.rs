@@ -187,13 +187,17 @@ impl<'u, 't> Text<'u, 't> {
             Part::Thing | Part::Things | Part::Objects | Part::Furniture | Part::List => {
                 self.take_things(part, at, caught)
             }
-            Part::Room | Part::Opening | Part::Wall | Part::Sided => {
+            Part::Room | Part::Opening | Part::Wall | Part::Sided | Part::SideWall => {
                 let noun = self.noun(at).filter(|noun| fits_place(part, noun))?;
                 caught.noun = Some(at);
                 caught.list_past = noun.past;
                 caught.side = noun.side.or(caught.side);
                 Some(noun.past)
             }
+            Part::Bare => self
+                .noun(at)
+                .filter(|noun| noun.article == Article::None && matches!(noun.class, Some(Class::Object)))
+                .map(|noun| noun.past),
             Part::Person => self.person(at, caught),
             Part::Relation => {
                 let (relation, past) = self.relation(at)?;
@@ -432,6 +436,7 @@ fn fits_place(part: Part, noun: &NounPhrase) -> bool {
     match part {
         Part::Room => noun.class == Some(Class::Room),
         Part::Opening => noun.class == Some(Class::Opening),
+        Part::SideWall => noun.class == Some(Class::Wall) && (noun.side.is_some() || noun.part.is_some()),
         Part::Sided => noun.class == Some(Class::Opening) && noun.side.is_some(),
         _ => noun.class == Some(Class::Wall),
     }

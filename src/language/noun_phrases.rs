@@ -162,7 +162,12 @@ impl<'u> Reader<'u> {
         if at > start && unit.pause && !(self.has(at - 1, Role::Adjective) && unit.has(Role::Adjective)) {
             return false;
         }
-        let taken = self.take_article(at, start) || self.take_place(at) || self.describes(at, start);
+        // "A grandfather clock": before a thing, a person only describes.
+        let kin = at > start
+            && unit.has(Role::Person)
+            && unit.noun.is_none()
+            && self.next(at + 1).is_some_and(|next| next.noun.is_some() && !next.roles.meet(VERBS));
+        let taken = kin || self.take_article(at, start) || self.take_place(at) || self.describes(at, start);
         self.at += usize::from(taken);
         taken
     }
@@ -314,6 +319,8 @@ impl<'u> Reader<'u> {
             }
             let head = self.phrase.head;
             let joins = match (class, noun.class) {
+                // "The music room".
+                (Class::Object, Class::Room) => noun.name == "room" && !bare,
                 (Class::Room, Class::Room) | (_, Class::Room | Class::Person) => false,
                 (Class::Room, _) => true,
                 (Class::Object, other) if other.is_furniture() => !self.phrase.plural && !bare,
@@ -321,14 +328,14 @@ impl<'u> Reader<'u> {
                 (first, other) if first.is_furniture() => {
                     other.is_furniture() || other == Class::Object && !bare || other == Class::Opening
                 }
-                (Class::Wall, _) => true,
                 _ => false,
             };
             if !joins {
                 break;
             }
             match class {
-                Class::Room => {
+                // "The hall table" is a kind of table, wherever it stands.
+                Class::Room if !self.units[head].lower.contains("hall") => {
                     self.phrase.room = Some(head);
                     self.phrase.name = head + 1;
                 }
@@ -359,13 +366,26 @@ impl<'u> Reader<'u> {
                 || after.has(Role::Has)
                 || after.has(Role::Relative)
         });
-        next.is_unknown() && thing && !bare && !self.phrase.plural && !verb && ends
+        let names = !next.foreign || next.lower.ends_with("er") || next.lower.ends_with("or");
+        next.is_unknown() && names && thing && !bare && !self.phrase.plural && !verb && ends
     }
 
     /// "A box of crackers", "a slice of apple".
     fn hold(&mut self) {
         let head = &self.units[self.phrase.head];
         let past = self.phrase.past;
+        // "The ball of the dog", "the keys of the car": whose it is.
+        if !head.has(Role::Container)
+            && self.phrase.class == Some(Class::Object)
+            && self.next(past).is_some_and(|unit| unit.lower == "of")
+        {
+            let owner = noun_phrase(self.units, past + 1);
+            let owner = owner.filter(|owner| {
+                owner.class.is_none_or(|class| matches!(class, Class::Object | Class::Person)) && !owner.generic
+            });
+            self.phrase.past = owner.map_or(past, |owner| owner.past);
+            return;
+        }
         if !head.has(Role::Container) || !self.next(past).is_some_and(|unit| unit.lower == "of") {
             return;
         }
@@ -407,6 +427,11 @@ impl<'u> Reader<'u> {
             return Some(self.phrase);
         }
         let head = at.checked_sub(1).filter(|&head| head >= start && self.units[head].is_unknown())?;
+        // A word of English that names no thing: "earlier", "itself"; with an article it may still be one.
+        let told = self.phrase.article != Article::None && !self.is(start, &["that", "this"]);
+        if self.units[head].foreign && !told {
+            return None;
+        }
         (self.phrase.head, self.phrase.past) = (head, head + 1);
         self.phrase.name = self.name_start(head, start);
         Some(self.phrase)
@@ -416,6 +441,7 @@ impl<'u> Reader<'u> {
 /// Whether a word that the lexicon does not have names a kind rather than describes: "gaming", "alphabet".
 fn names_kind(unit: &Unit) -> bool {
     let noun = unit.noun.is_some_and(|noun| noun.class == Class::Object) && !unit.has(Role::Adjective);
+    let noun = noun || matches!(unit.lower.as_ref(), "grandfather" | "kid" | "kids" | "guest");
     noun || unit.is_unknown() && !unit.foreign && !describes_by_ending(&unit.lower)
         || unit.foreign && unit.lower.ends_with("ing")
 }

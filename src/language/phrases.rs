@@ -275,6 +275,14 @@ fn finish(phrase: &mut Phrase, rule: RuleKind, text: &Text, side: Option<Directi
     match rule {
         RuleKind::Turn | RuleKind::Go => phrase.amount = amount(&units[phrase.first..phrase.past]),
         RuleKind::Room => phrase.side = side.or_else(|| phrase.noun().and_then(|noun| noun.side)),
+        RuleKind::Part if phrase.from == From::Room && is_passage(phrase, units) => {
+            // "On the left side of the hall" picks the room; "at the end of the hall" is on the way.
+            let lateral = matches!(phrase.directions, [Some(Direction::Left | Direction::Right), None]);
+            phrase.kind = if lateral { Kind::Side } else { Kind::Aside };
+            phrase.from = if lateral { From::Robot } else { From::Nothing };
+            phrase.nouns.clear();
+        }
+        RuleKind::Related if units[phrase.first].lower == "with" => phrase.held = true,
         RuleKind::Held => phrase.held = true,
         RuleKind::Inverse => {
             // "The desk has a lamp to the left of it": the desk is to the right of the lamp.
@@ -298,6 +306,14 @@ fn finish(phrase: &mut Phrase, rule: RuleKind, text: &Text, side: Option<Directi
         }
         _ => {}
     }
+}
+
+/// Whether the room is a hallway.
+fn is_passage(phrase: &Phrase, units: &[Unit]) -> bool {
+    phrase.noun().is_some_and(|noun| {
+        let name = &units[noun.head].lower;
+        name.contains("hall") || name == "corridor"
+    })
 }
 
 fn nouns(text: &Text, first: Option<usize>, past: usize) -> Vec<NounPhrase> {

@@ -95,7 +95,14 @@ impl Reader<'_> {
         let named = rooms.filter(|&room| {
             room < first && !self.is_passage(room) && self.is_named(room) && !self.is_sided_by_next(room)
         });
-        if named.is_some() {
+        // "It's in the bedroom so go right": the room is only mentioned, and the turn leads to it.
+        let leads = named.is_some_and(|room| {
+            self.kind(first) == Some(Kind::Turn)
+                && !self.phrases[room].is_moved(self.units)
+                && !(room..first).any(|i| self.is_inside(i))
+                && self.phrases[first].past < self.units.len()
+        });
+        if named.is_some() && !leads {
             return named;
         }
         let inside = (first..self.phrases.len()).find(|&i| self.is_inside(i)).unwrap_or(self.phrases.len());

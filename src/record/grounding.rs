@@ -68,6 +68,38 @@ impl Destination {
     pub fn is_empty(&self) -> bool {
         self.recipient.is_none() && self.room.is_none() && self.target.is_none()
     }
+
+    /// The goal in words: "to the counter in the kitchen", "back to the speaker".
+    pub fn phrase(&self) -> String {
+        let spoken = |name: &String| name.replace('_', " ");
+        let mut parts: Vec<String> = Vec::new();
+        match self.recipient.as_deref() {
+            Some("speaker") => parts.push("back to the speaker".to_string()),
+            Some(name) => parts.push(format!("to {}", name.replace('_', " "))),
+            None => {}
+        }
+        parts.extend(self.target.as_ref().map(|target| format!("to the {}", spoken(target))));
+        parts.extend(self.room.as_ref().map(|room| {
+            if self.target.is_none() && self.recipient.is_none() {
+                format!("to the {}", spoken(room))
+            } else {
+                format!("in the {}", spoken(room))
+            }
+        }));
+        parts.join(" ")
+    }
+}
+
+/// What `ground` doubted, for stages that come later: its warnings and its question.
+///
+/// # Errors
+/// When the record's `grounding` is none.
+pub fn doubts_of(record: &super::Record) -> Result<Vec<String>, super::FieldError> {
+    let grounding: Option<Grounding> = record.get("grounding")?;
+    Ok(grounding.map_or_else(Vec::new, |grounding| {
+        let further = grounding.then.into_iter().flat_map(|next| next.warnings);
+        grounding.warnings.into_iter().chain(further).chain(grounding.question).collect()
+    }))
 }
 
 /// Something that is ruled out.

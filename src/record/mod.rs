@@ -23,7 +23,7 @@ pub use chunk::{Chunk, Tag, Token};
 pub use detection::Detection;
 pub use grounding::{
     Amount, Destination, Direction, Frame, Grounding, Node, ObjectSlot, Pair, Reading, RoomSlot, RuledOut, TextSpan,
-    Why,
+    Why, doubts_of,
 };
 pub use hof::{DegreeOfTruth, Hof, HofForce};
 pub use line::{FieldError, Record, message_without_position};
@@ -32,4 +32,4 @@ pub use plan::{Action, Motion, Plan, SearchPair};
 pub use precision::Rounded;
 pub use reference::Reference;
 pub use stage::{Note, Stage, StageError};
-pub use trial::{ActionReport, Outcome, PathPoint, Trial};
+pub use trial::{ActionReport, Delivery, Outcome, PathPoint, Trial};
