@@ -186,7 +186,8 @@ impl Assembly {
         let Picture { width, height, pixels } = depth;
         let depths = Depths { pixels: &pixels, width, intrinsics, unit_m: DEPTH_UNIT_M };
         let trees = self.spaces.of(taken.topic);
-        let found = trees.map_err(NoPlace::from).and_then(|trees| place(&trees, &self.mount, taken, &depths, self.told));
+        let found =
+            trees.map_err(NoPlace::from).and_then(|trees| place(&trees, &self.mount, taken, &depths, self.told));
         let Place { world_from_camera, robot, from, assumed } =
             found.map_err(|why| skipped("frames without a pose", why.to_string()))?;
         items.extend(assumed.and_then(|said| self.losses.note("frames with an assumed camera mount", said)).map(Err));
