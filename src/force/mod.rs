@@ -32,6 +32,7 @@ mod main_direction;
 mod mask;
 mod name;
 pub mod polygon;
+mod quadrature;
 pub mod raster;
 mod relation;
 mod rose;
