@@ -4,6 +4,7 @@ use clap::Args;
 use spatial_fetch::behavior::Options;
 
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Executive")]
 pub struct Arguments {
     /// Room and object only, nearest table first: the yardstick for what the words are worth

@@ -13,6 +13,7 @@ use spatial_fetch::recording::Outputs;
 use crate::number::within;
 
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Outputs")]
 pub struct Arguments {
     /// Draw the way through the rooms; {id} stands for the record's id

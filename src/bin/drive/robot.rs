@@ -31,6 +31,7 @@ enum Model {
 }
 
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Robot")]
 pub struct Arguments {
     /// sim, `serial:/dev/ttyUSB0[@38400]` or tcp:HOST:8101
