@@ -14,10 +14,12 @@ use spatial_fetch::recording::{LogReader, RecordReader, Window};
 
 use crate::Arguments;
 
-const DECIDING: [&str; 15] = [
+const DECIDING: [&str; 17] = [
     "world",
     "map",
     "noise",
+    "dead_time",
+    "jitter",
     "perception",
     "depth_noise",
     "depth_loss",
