@@ -12,7 +12,7 @@ use crate::robot::MobileBase;
 
 /// Runs `plan` in `home`. `stream` picks the record's own random numbers under the seed ([`super::stream_of`]).
 pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: &mut dyn Watcher) -> Run {
-    let noise = settings.noise.of(home.scene.noise.unwrap_or_default());
+    let noise = settings.noise_in(home.scene.noise.unwrap_or_default());
     let obstacles = Obstacles::new(&home.map, &home.scene);
     let mut base = SimulatedBase::with_noise(obstacles, home.map.start, noise, settings.seed, stream);
     let truth = base.truth();
