@@ -93,7 +93,7 @@ impl<'r> Story<'r> {
             let phrase = &self.phrases[at];
             match phrase.kind {
                 Kind::Room => self.room(phrase),
-                Kind::Leave => self.leave(),
+                Kind::Leave => self.leave(phrase),
                 _ if picks || led => {}
                 Kind::Stop => self.stop(),
                 Kind::Go | Kind::Turn => self.step(phrase),
@@ -156,8 +156,15 @@ impl<'r> Story<'r> {
         self.rooms.push((name, passage));
     }
 
-    fn leave(&mut self) {
+    /// A room that is left, or from which a thing is brought.
+    fn leave(&mut self, phrase: &Phrase) {
         self.open = None;
+        if self.act.delivers()
+            && self.says(phrase, &["from"])
+            && let Some(name) = self.room_name(phrase)
+        {
+            self.rooms.push((name, false));
+        }
     }
 
     // --- steps and places
@@ -307,7 +314,11 @@ impl<'r> Story<'r> {
             Some(node) if !reached => {
                 let known = &mut self.grounding.nodes[node].pairs;
                 // "By the purse uh by the black purse": said twice in one breath, meant once.
-                let breath = at > 0 && self.phrases[at - 1].past == self.phrases[at].first;
+                let before = at.checked_sub(1).map(|before| &self.phrases[before]);
+                let breath = before.is_some_and(|before| {
+                    before.past == self.phrases[at].first
+                        && matches!(before.kind, Kind::Side | Kind::Part | Kind::Landmark | Kind::ObjectMark)
+                });
                 let again = breath && pairs.len() == 1 && known.last() == pairs.first();
                 known.extend(pairs.into_iter().filter(|_| !again));
             }
@@ -456,7 +467,9 @@ impl<'r> Story<'r> {
         if !phrase.is_reached() && !turned_at {
             return false;
         }
-        let own = phrase.noun().map(|noun| self.name(noun));
+        let either = phrase.nouns.len() > 1 && self.says(phrase, &["or"]);
+        let own = if either { phrase.nouns.last() } else { phrase.noun() };
+        let own = own.map(|noun| self.name(noun));
         let rest = &self.phrases[at + 1..];
         let other = |next: &&Phrase| {
             next.kind == Kind::Target

@@ -366,7 +366,7 @@ impl<'u> Reader<'u> {
                 || after.has(Role::Has)
                 || after.has(Role::Relative)
         });
-        let names = !next.foreign || next.lower.ends_with("er") || next.lower.ends_with("or");
+        let names = !next.lower.ends_with("ly") && next.lower != "anyhow";
         next.is_unknown() && names && thing && !bare && !self.phrase.plural && !verb && ends
     }
 
