@@ -84,6 +84,15 @@ pub(super) struct Task<'p> {
     pub(super) object: Option<&'p str>,
 }
 
+impl Task<'_> {
+    /// Whether the words name neither a thing nor a place where one could be.
+    fn looks_for_nothing(&self) -> bool {
+        let wanted = &self.wanted;
+        let is_placed = wanted.target.is_some() || !wanted.pairs.is_empty();
+        self.object.is_none() && !is_placed && wanted.attributes.is_empty() && wanted.ordinal.is_none()
+    }
+}
+
 impl<'a> Executive<'a> {
     /// An executive for one trial.
     pub fn new(
@@ -121,6 +130,9 @@ impl<'a> Executive<'a> {
             return Ok((Outcome::NotFound, format!("nothing to do: {problems}")));
         }
         let task = self.task_of(plan);
+        if !self.options.blind && task.looks_for_nothing() {
+            return self.only_move(plan, &task);
+        }
         let mut why = String::new();
         for (i, room) in task.rooms.iter().enumerate() {
             if let Err(halt) = self.enter(room) {
@@ -143,6 +155,22 @@ impl<'a> Executive<'a> {
             }
         }
         Ok((Outcome::NotFound, why))
+    }
+
+    /// Where nothing to look for was named, the robot goes where it was told to: into the room that was said, else
+    /// from where it stands.
+    fn only_move(&mut self, plan: &Plan, task: &Task) -> Result<(Outcome, String), Halt> {
+        if let Some(room) = &plan.room {
+            self.enter(room)?;
+        }
+        let here = self.map.room_at(self.pilot.pose().position()).map(|room| room.name.clone());
+        let Some(here) = here else { return Ok((Outcome::Arrived, "nothing to look for was named".to_string())) };
+        let frame = RoomFrame::of(self.map, &here, self.pilot.pose());
+        for action in &task.steps {
+            self.step(action, &frame)?;
+        }
+        let place = self.map.room_at(self.pilot.pose().position()).map_or(here, |room| room.name.clone());
+        Ok((Outcome::Arrived, format!("in the {}; nothing to look for was named", place.replace('_', " "))))
     }
 
     fn task_of<'p>(&self, plan: &'p Plan) -> Task<'p> {
@@ -177,7 +205,8 @@ impl<'a> Executive<'a> {
         if outline.contains(self.pilot.pose().position()) {
             self.pilot.because("already there");
         } else if let Some(entry) = self.map.entry_pose(room) {
-            self.pilot.because(format!("the {name} is entered at ({:.1}, {:.1})", entry.x, entry.y));
+            let reason = format!("the {name} is entered at ({:.1}, {:.1})", entry.x, entry.y);
+            self.pilot.because_plainly(reason, &format!("going into the {name}"));
             self.pilot.go_to_pose(entry)?;
         } else {
             self.pilot.go_into(&outline, &name)?;

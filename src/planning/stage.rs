@@ -4,7 +4,7 @@ use super::actions::actions_for;
 use super::rooms::choose_room;
 use crate::language::Lexicon;
 use crate::map::RoomMap;
-use crate::record::{Action, Direction, Grounding, Note, Plan, Record, Stage, StageError};
+use crate::record::{Action, Direction, Grounding, Note, Plan, Record, Shade, Stage, StageError};
 
 /// Makes plans for one room map.
 #[derive(Debug)]
@@ -57,6 +57,10 @@ impl Stage for Planner {
         lines.extend(plan.actions.iter().enumerate().map(|(i, action)| format!("{:3}. {}", i + 1, sentence(action))));
         lines.extend(plan.problems.iter().map(|problem| format!("  !  {problem}")));
         Ok(lines.join("\n"))
+    }
+
+    fn shade(&self, line: &str) -> Shade {
+        if line.starts_with("  !  ") { Shade::Bad } else { Shade::Plain }
     }
 }
 

@@ -14,6 +14,7 @@ mod hof;
 mod line;
 mod plan;
 mod precision;
+mod row;
 mod stage;
 mod trial;
 
@@ -24,5 +25,6 @@ pub use hof::{DegreeOfTruth, Hof, HofForce};
 pub use line::{FieldError, Record, message_without_position};
 pub use plan::{Action, Plan, SearchPair};
 pub use precision::Rounded;
-pub use stage::{Note, Stage, StageError};
+pub use row::{Row, csv_line};
+pub use stage::{Note, Shade, Stage, StageError};
 pub use trial::{ActionReport, Outcome, PathPoint, Trial};

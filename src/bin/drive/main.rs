@@ -12,8 +12,9 @@ use clap::Parser;
 use spatial_fetch::cli::{
     self, Common, Exit, EyeArguments, Failure, FromLog, HomeArguments, Intake, Program, Reporter,
 };
+use spatial_fetch::files::write_file;
 use spatial_fetch::record::Trial;
-use spatial_fetch::simulation::{Driver, NoiseLevel, Settings};
+use spatial_fetch::simulation::{Driver, Inventory, NoiseLevel, Settings, drawn};
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
 ///
@@ -30,6 +31,12 @@ struct Arguments {
     /// How imperfect the robot's wheels, sonars, compass and start are
     #[arg(long, value_enum, default_value = "default")]
     noise: NoiseLevel,
+    /// Say what there is in the home – rooms, doors, furniture, objects – and end; with --plot draw it, too
+    #[arg(long, help_heading = "Home")]
+    list: bool,
+    /// Look for an object that the simulated home does not have, too, in place of saying so at once
+    #[arg(long, help_heading = "Home")]
+    search_anyway: bool,
     #[command(flatten)]
     eyes: EyeArguments,
     #[command(flatten)]
@@ -53,7 +60,7 @@ impl Program for Arguments {
         schemars::schema_for!(Trial)
     }
     fn reads_standard_input(&self) -> bool {
-        !self.robot.serves() && self.log.from.is_none() && self.common.files.is_empty()
+        !self.list && !self.robot.serves() && self.log.from.is_none() && self.common.files.is_empty()
     }
     fn run(self) -> Result<Exit, Failure> {
         let reporter = Reporter::new(Self::NAME, &self.common);
@@ -72,7 +79,21 @@ impl Arguments {
         Ok(replay.arguments)
     }
 
+    /// Says what there is in the home.
+    fn list(self) -> Result<Exit, Failure> {
+        let home = self.home.load()?;
+        if let Some(path) = self.outputs.plot() {
+            write_file(path, drawn(&home).as_bytes(), self.common.force)?;
+        }
+        let inventory = Inventory::of(&home);
+        cli::write_report(&self.common, &inventory, || inventory.text())?;
+        Ok(Exit::Done)
+    }
+
     fn drive(self, reporter: Reporter) -> Result<Exit, Failure> {
+        if self.list {
+            return self.list();
+        }
         if self.robot.serves() {
             return self.robot.run_served(&self.home.load()?, &reporter, self.common.seed);
         }
@@ -88,26 +109,34 @@ impl Arguments {
             seed: self.common.seed,
         };
         let watched = self.outputs.is_live();
-        let outputs = self.outputs.outputs(self.common.force, replay::recorded_line()?, &reporter)?;
+        let page = self.outputs.page(self.common.force)?;
+        let outputs = self.outputs.outputs(&self.common, replay::recorded_line()?, &reporter)?;
+        let stories = outputs.stories.clone();
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
         // Nobody watches two trials at once.
         let common = if watched { Common { jobs: 1, ..self.common } } else { self.common };
-        let driver = Driver { home, settings, outputs };
-        cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, &driver)
+        let driver = Driver { home, settings, outputs, search_anyway: self.search_anyway };
+        let exit = cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, &driver)?;
+        outputs::write_page(page, stories, &driver.home.map, &driver.home.pieces(), common.force)?;
+        Ok(exit)
     }
 
     /// Drives a real robot, of whose home the rooms alone are known.
     fn drive_real(self, reporter: Reporter) -> Result<Exit, Failure> {
         let map = self.home.rooms()?;
         let options = self.executive.options();
-        let outputs = self.outputs.outputs(self.common.force, replay::recorded_line()?, &reporter)?;
+        let page = self.outputs.page(self.common.force)?;
+        let outputs = self.outputs.outputs(&self.common, replay::recorded_line()?, &reporter)?;
+        let (stories, rooms) = (outputs.stories.clone(), map.clone());
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
         // One robot, one plan at a time.
         let common = Common { jobs: 1, ..self.common };
         let to_stdout = common.output.is_none();
         let driver = self.robot.driver(map, options, outputs, reporter)?;
         let driver = driver.while_heard(move || to_stdout && cli::is_output_closed());
-        cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, &driver)
+        let exit = cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, &driver)?;
+        outputs::write_page(page, stories, &rooms, &[], common.force)?;
+        Ok(exit)
     }
 }
 
