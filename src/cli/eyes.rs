@@ -1,7 +1,7 @@
 //! Options of the simulated robot's eyes, which `drive` and `evaluate` spell alike.
 
 use crate::simulation::camera::{Kinect, KinectFaults, Light};
-use crate::simulation::{Perception, Settings};
+use crate::simulation::{Perception, TrialSettings};
 
 /// What the simulated robot's eyes report, and how good its Kinect is.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -23,8 +23,8 @@ pub struct EyeArguments {
 
 impl EyeArguments {
     /// Settings with these eyes, else the usual ones.
-    pub fn settings(&self) -> Settings {
-        Settings { perception: self.perception, kinect: self.kinect(), ..Settings::default() }
+    pub fn settings(&self) -> TrialSettings {
+        TrialSettings { perception: self.perception, kinect: self.kinect(), ..TrialSettings::default() }
     }
 
     /// The simulated camera.

@@ -20,9 +20,9 @@
 //! assert_eq!(histogram.values()[2], 0.0);
 //! ```
 
+mod axes;
 mod degree;
 mod describe;
-mod frame;
 mod gap;
 mod histogram;
 mod input;
@@ -39,14 +39,14 @@ mod stage;
 mod surround;
 mod wording;
 
+pub use axes::{Axes, Words};
 pub use degree::{DegreeOfTruth, degree_of_truth};
 pub use describe::Description;
-pub use frame::{Frame, Words};
 pub use histogram::Histogram;
 pub use kernel::{Force, Infinite};
 pub use main_direction::main_direction;
-pub use name::{ForceName, FrameName};
-pub use relation::Relation;
+pub use name::{AxesName, ForceName};
+pub use relation::RelativePosition;
 pub use shape::{Shape, ShapeError};
 pub use stage::{Describer, Pictures};
 pub use surround::{between, surround};

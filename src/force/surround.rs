@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::degree::Judge;
-use super::{Histogram, Relation, Shape};
+use super::{Histogram, RelativePosition, Shape};
 
 /// Levels at which a histogram is cut.
 const LEVELS: usize = 20;
@@ -53,11 +53,11 @@ fn widest_opening(values: &[f64], cut: f64) -> f64 {
 /// assert!(force::between(&square(0.0), &square(3.0), &square(6.0)) < 0.1);
 /// ```
 pub fn between(a: &Shape, first: &Shape, second: &Shape) -> f64 {
-    betweenness(&Relation::between(a, first), &Relation::between(a, second))
+    betweenness(&RelativePosition::between(a, first), &RelativePosition::between(a, second))
 }
 
 /// How far an object lies between two others, from its relations to them.
-pub(super) fn betweenness(one: &Relation, other: &Relation) -> f64 {
+pub(super) fn betweenness(one: &RelativePosition, other: &RelativePosition) -> f64 {
     const DIRECTIONS: usize = 32;
     let (mut one, mut other) = (Judge::new(one.constant()), Judge::new(other.constant()));
     let both = |i: usize| {

@@ -46,7 +46,7 @@ pub use log_reader::LogReader;
 pub use outputs::{Outputs, TruePiece};
 pub use record_reader::{RecordReader, records};
 pub use recorder::{About, OPTIONS_TOPIC, Recorder};
-pub use shapes::Piece;
+pub use shapes::ShownPiece;
 pub use time::nanoseconds;
 pub use timed_frame::TimedFrame;
 pub use trial_log::TrialLog;

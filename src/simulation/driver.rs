@@ -1,6 +1,6 @@
 //! `drive` as a stage of the pipeline.
 
-use super::{Home, Settings, run, stream_of};
+use super::{Home, TrialSettings, run, stream_of};
 use crate::behavior::{Silent, Watcher, plan_of, text_of};
 use crate::record::{Note, Plan, Record, Stage, StageError};
 use crate::recording::{About, LogError, Outputs, Recorder};
@@ -11,7 +11,7 @@ pub struct Driver {
     /// Where.
     pub home: Home,
     /// How.
-    pub settings: Settings,
+    pub settings: TrialSettings,
     /// What to leave beside the record.
     pub outputs: Outputs,
 }

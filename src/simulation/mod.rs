@@ -38,7 +38,7 @@ pub use noise::Noise;
 pub use run::run;
 pub use scene::{Item, PlacedObject, Scene};
 pub use served::{Served, ServingStop, served_until_interrupted};
-pub use settings::{NoiseLevel, Perception, Settings, stream_of};
+pub use settings::{NoiseLevel, Perception, TrialSettings, stream_of};
 pub use shipped::{SHIPPED_HOMES, ShippedHome};
 pub use solid::{Ray, Solid};
 pub use ways::ideal_detection;

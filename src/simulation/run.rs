@@ -3,7 +3,7 @@
 use super::base::{Obstacles, SimulatedBase};
 use super::eyes::{eyes, is_recognisable};
 use super::judge::judge;
-use super::{Home, Settings};
+use super::{Home, TrialSettings};
 use crate::behavior::{Executive, Report, Watcher};
 use crate::behavior::{Run, rounded};
 use crate::geometry::Pose;
@@ -11,7 +11,7 @@ use crate::record::{Action, Outcome, PathPoint, Plan, Trial};
 use crate::robot::MobileBase;
 
 /// Runs `plan` in `home`. `stream` picks the record's own random numbers under the seed ([`super::stream_of`]).
-pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: &mut dyn Watcher) -> Run {
+pub fn run(home: &Home, plan: &Plan, settings: &TrialSettings, stream: u64, watcher: &mut dyn Watcher) -> Run {
     let noise = settings.noise.of(home.scene.noise.unwrap_or_default());
     let obstacles = Obstacles::new(&home.map, &home.scene);
     let mut base = SimulatedBase::with_noise(obstacles, home.map.start, noise, settings.seed, stream);

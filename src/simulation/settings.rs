@@ -6,7 +6,7 @@ use crate::behavior::Options;
 
 /// Everything about a trial that is neither home nor plan.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Settings {
+pub struct TrialSettings {
     /// What the executive may do.
     pub options: Options,
     /// What the robot's eyes report.

@@ -13,7 +13,7 @@ use spatial_fetch::cli::{
     self, Common, Exit, EyeArguments, Failure, FromLog, HomeArguments, Intake, Program, Reporter,
 };
 use spatial_fetch::record::Trial;
-use spatial_fetch::simulation::{Driver, NoiseLevel, Settings};
+use spatial_fetch::simulation::{Driver, NoiseLevel, TrialSettings};
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
 ///
@@ -80,7 +80,7 @@ impl Arguments {
             return self.drive_real(reporter);
         }
         let home = self.home.load()?;
-        let settings = Settings {
+        let settings = TrialSettings {
             options: self.executive.options(),
             perception: self.eyes.perception,
             kinect: self.eyes.kinect(),

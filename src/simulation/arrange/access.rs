@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
-use crate::catalogue::Shape;
+use crate::catalogue::FurnitureShape;
 use crate::geometry::{Cell, ClearanceGrid, Vec2, vec2};
 use crate::map::RoomMap;
 use crate::simulation::{Item, Scene};
@@ -43,7 +43,7 @@ fn holds_something(scene: &Scene, item: &Item) -> bool {
 }
 
 fn is_table(item: &Item) -> bool {
-    matches!(item.kind().shape, Shape::Table | Shape::RoundTable | Shape::HexagonTable)
+    matches!(item.kind().shape, FurnitureShape::Table | FurnitureShape::RoundTable | FurnitureShape::HexagonTable)
 }
 
 fn is_accessible(item: &Item, grid: &ClearanceGrid, rooms: &ClearanceGrid, reached: &Reached) -> bool {

@@ -5,7 +5,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::{Client, ConnectError, Event, Report, Settings};
+use super::{ArcosSettings, Client, ConnectError, Event, Report};
 use crate::geometry::{Pose, wrap_angle};
 use crate::robot::arcos::line::Line;
 use crate::robot::{MobileBase, RobotError, SonarReading, Status};
@@ -97,7 +97,7 @@ impl Stopper {
 
 impl ArcosBase {
     /// Connects to the robot on `line`, which stands at `start` in the map.
-    pub fn connect(line: Box<dyn Line + Send>, settings: Settings, start: Pose) -> Result<Self, ConnectError> {
+    pub fn connect(line: Box<dyn Line + Send>, settings: ArcosSettings, start: Pose) -> Result<Self, ConnectError> {
         let resume = settings.resume;
         let client = Client::connect(line, settings)?;
         let preflight = client.preflight();

@@ -7,7 +7,7 @@ use crate::robot::p3dx::SonarArray;
 
 /// Limits and manners; the defaults are safe ones.
 #[derive(Clone, Debug)]
-pub struct Settings {
+pub struct ArcosSettings {
     /// m/s.
     pub speed: f64,
     /// rad/s.
@@ -32,7 +32,7 @@ pub struct Settings {
     pub sonars: SonarArray,
 }
 
-impl Default for Settings {
+impl Default for ArcosSettings {
     fn default() -> Self {
         Self {
             speed: 0.3,
@@ -50,7 +50,7 @@ impl Default for Settings {
     }
 }
 
-impl Settings {
+impl ArcosSettings {
     /// A velocity within the limits; what is no number is none.
     pub fn limited(&self, linear: f64, angular: f64) -> (f64, f64) {
         let within = |value: f64, most: f64| if value.is_finite() { value.clamp(-most, most) } else { 0.0 };
