@@ -12,6 +12,7 @@ pub mod arrange;
 pub mod base;
 pub mod camera;
 mod check;
+mod dice;
 mod driver;
 pub mod eyes;
 pub mod families;
@@ -31,6 +32,7 @@ pub mod training;
 mod ways;
 
 pub use check::check;
+pub use dice::Dice;
 pub use driver::Driver;
 pub use home::Home;
 pub use load::{load_world, world_json};

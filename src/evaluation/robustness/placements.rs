@@ -14,8 +14,8 @@ use crate::grounding::{Grounder, Method};
 use crate::language::{Lexicon, chunk_text};
 use crate::planning::Planner;
 use crate::record::{Grounding, Outcome, Plan, Trial};
-use crate::simulation::arrange::{Dice, Relations, rearranged};
-use crate::simulation::{Home, TrialSettings, run, stream_of};
+use crate::simulation::arrange::{Relations, rearranged};
+use crate::simulation::{Dice, Home, TrialSettings, run, stream_of};
 
 /// How an experiment is run.
 #[derive(Clone, Copy)]

@@ -15,7 +15,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::base::Truth;
 use super::camera::Kinect;
-use super::{Home, Perception, TrialSettings};
+use super::{Dice, Home, Perception, TrialSettings};
 use crate::geometry::Pose;
 use crate::perception::Eyes;
 use boxes::BoxEyes;
@@ -31,7 +31,7 @@ pub(super) fn eyes(home: &Home, settings: &TrialSettings, stream: u64, truth: Rc
     let kinect = |truth, rng| SimulatedKinect::new(&home.map, &home.scene, mounted, truth, rng);
     match settings.perception {
         Perception::Truth => Box::new(ideal(truth)),
-        Perception::Boxes => Box::new(BoxEyes::new(ideal(truth), rng)),
+        Perception::Boxes => Box::new(BoxEyes::new(ideal(truth), Dice::new(settings.seed, stream))),
         Perception::Masks => Box::new(MaskEyes::new(kinect(truth, rng), home.map.clone(), &home.scene)),
         Perception::Camera => Box::new(CameraEyes::new(kinect(truth, rng), home.map.clone())),
     }
