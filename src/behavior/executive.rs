@@ -106,6 +106,7 @@ impl<'a> Executive<'a> {
                 let (during, limit) = (self.pilot.journal.during(), self.options.time_limit_s);
                 (Outcome::Timeout, format!("{during}not found within {limit} s"))
             }
+            Err(Halt::Stuck(why)) => (Outcome::Stuck, format!("{}{why}", self.pilot.journal.during())),
             Err(Halt::Stopped) => (Outcome::Stopped, "told to stop".to_string()),
             Err(Halt::Held(why)) => (Outcome::Stopped, why),
             Err(Halt::LinkLost(why)) => (Outcome::LinkLost, why),
@@ -213,13 +214,11 @@ impl<'a> Executive<'a> {
     /// The furniture an action names: the one nearest ahead, and where to stand by it.
     fn landmark_of(&mut self, action: &Action, room: &RoomFrame) -> Result<Option<(Polygon, Option<f64>)>, Halt> {
         let (noun, direction) = match action {
-            Action::Go { reference, direction, frame, .. } => (reference, Some((*direction, *frame))),
-            Action::Move { amount: Some(Amount::Until(noun)), .. } if noun != "wall" => (noun, None),
+            Action::Go { reference, direction, frame, .. } => (reference.thing(), Some((*direction, *frame))),
+            Action::Move { amount: Some(Amount::Until(what)), .. } => (what.thing(), None),
             _ => return Ok(None),
         };
-        if matches!(noun.as_str(), "room" | "wall" | "door") {
-            return Ok(None);
-        }
+        let Some(noun) = noun else { return Ok(None) };
         if references(&self.pilot.beliefs, noun, self.lexicon).is_empty() {
             self.pilot.sweep(SWEEP_RAD)?;
         }

@@ -17,7 +17,7 @@ pub struct Run {
 
 /// The plan of a record, made for this home.
 pub fn plan_of(record: &Record, map: &RoomMap) -> Result<Plan, StageError> {
-    let plan: Plan = record.require("plan", "pipe the record through `plan` first")?;
+    let plan: Plan = record.require_part("pipe the record through `plan` first")?;
     if plan.map != map.name {
         let (plan, home) = (&plan.map, &map.name);
         let message = format!("`plan`: made for the map `{plan}`, the robot is in `{home}`; give both the same --map");
@@ -28,7 +28,7 @@ pub fn plan_of(record: &Record, map: &RoomMap) -> Result<Plan, StageError> {
 
 /// A trial for people.
 pub fn text_of(record: &Record) -> Result<String, StageError> {
-    let trial: Trial = record.require("trial", "it is what `drive` adds")?;
+    let trial: Trial = record.require_part("it is what `drive` adds")?;
     let mut lines: Vec<String> = record.get::<String>("text")?.into_iter().collect();
     for action in &trial.actions {
         let (start, end) = (action.start_s.0, action.end_s.0);

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::filter::{Outcome, finish, run_source};
 use super::log_input::{Bytes, open_log};
 use super::{Common, Diagnostic, Exit, Failure, FromLog, Inputs, Line, Source};
-use crate::frame::RgbdFrame;
+use crate::perception::Told;
 use crate::record::{Note, Record, Stage, StageError};
 use crate::recording::{FrameOptions, FrameReader, TimedFrame};
 
@@ -16,7 +16,7 @@ use crate::recording::{FrameOptions, FrameReader, TimedFrame};
 const BATCH_FRAMES: usize = 8;
 
 /// What a seeing stage adds to the record of one frame.
-pub type See<'a> = dyn Fn(&RgbdFrame, &mut Record) -> Result<Note, StageError> + Sync + 'a;
+pub type See<'a> = dyn Fn(&TimedFrame, &mut Record) -> Result<Note, StageError> + Sync + 'a;
 
 /// What there is to read: records that name frames, or logs that hold them.
 pub enum FrameInput {
@@ -28,8 +28,12 @@ pub enum FrameInput {
 
 impl FrameInput {
     /// Looks at the first bytes: an MCAP log is read as one, wherever it comes from.
-    pub fn open(files: &[PathBuf], options: &FromLog) -> Result<Self, Failure> {
-        let logs = |paths: Vec<PathBuf>| FrameLogs::new(paths, options.clone());
+    /// `told` is what is known of the camera of frames whose log does not tell where it was.
+    ///
+    /// # Errors
+    /// When standard input begins as a log and goes on as none.
+    pub fn open(files: &[PathBuf], options: &FromLog, told: Told) -> Result<Self, Failure> {
+        let logs = |paths: Vec<PathBuf>| FrameLogs::new(paths, options.clone(), told);
         match (&options.from, files) {
             (Some(path), _) => Ok(Self::Logs(Box::new(logs(vec![path.clone()])))),
             (None, [first, ..]) if first != Path::new("-") => {
@@ -70,6 +74,7 @@ fn begins_as_log(mut source: impl Read) -> (bool, Vec<u8>) {
 pub struct FrameLogs {
     waiting: VecDeque<PathBuf>,
     options: FromLog,
+    told: Told,
     current: Option<Current>,
     count: usize,
     lost: Vec<Diagnostic>,
@@ -107,13 +112,13 @@ impl FrameItem {
 }
 
 impl FrameLogs {
-    fn new(paths: Vec<PathBuf>, options: FromLog) -> Self {
-        Self { waiting: paths.into(), options, current: None, count: 0, lost: Vec::new() }
+    fn new(paths: Vec<PathBuf>, options: FromLog, told: Told) -> Self {
+        Self { waiting: paths.into(), options, told, current: None, count: 0, lost: Vec::new() }
     }
 
     fn begin(&mut self, bytes: Bytes, name: String, is_pipe: bool) -> Result<(), Failure> {
         let (topics, window, recover) = (self.options.topic.clone(), self.options.window(), self.options.recover);
-        let frames = FrameReader::new(bytes, &name, FrameOptions { topics, window, recover });
+        let frames = FrameReader::new(bytes, &name, FrameOptions { topics, window, recover, told: self.told });
         let frames = frames.map_err(|error| Failure::Failed(error.to_string()))?;
         self.current = Some(Current { frames, name, is_pipe });
         Ok(())
@@ -177,7 +182,7 @@ pub fn run_frames(
         record.set("log_ns", &item.timed.log_ns);
         record.set("robot_pose", &item.timed.robot);
         let mut outcome = Outcome::default();
-        finish(&item.line(), record, common.format, stage, &|record| see(&item.timed.frame, record), &mut outcome);
+        finish(&item.line(), record, common.format, stage, &|record| see(&item.timed, record), &mut outcome);
         outcome
     })
 }

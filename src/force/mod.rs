@@ -21,6 +21,7 @@
 //! ```
 
 mod axes;
+mod between;
 mod degree;
 mod describe;
 mod gap;
@@ -40,6 +41,7 @@ mod surround;
 mod wording;
 
 pub use axes::{Axes, Words};
+pub use between::between;
 pub use degree::{DegreeOfTruth, degree_of_truth};
 pub use describe::Description;
 pub use histogram::Histogram;
@@ -49,5 +51,5 @@ pub use name::{AxesName, ForceName};
 pub use relation::RelativePosition;
 pub use shape::{Shape, ShapeError};
 pub use stage::{Describer, Pictures};
-pub use surround::{between, surround};
+pub use surround::surround;
 pub use wording::{Assessment, Closeness};

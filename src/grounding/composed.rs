@@ -3,7 +3,7 @@
 use super::meaning::{Meaning, pair};
 use super::words::ChunkWords;
 use crate::language::{Class, Lexicon, Relation, Role, Unit, UnitKind, leading_relation, units};
-use crate::record::{Amount, Direction, Grounding, Pair, Tag};
+use crate::record::{Amount, Direction, Grounding, Pair, Reference, Tag};
 
 /// What the own words of `chunk` mean. `continues_move`: it is joined to a move by "and" or "then".
 pub fn meaning_of(chunk: &ChunkWords, lexicon: &Lexicon, continues_move: bool) -> Meaning {
@@ -288,7 +288,7 @@ impl Words<'_> {
         pairs[0].ordinal = self.ordinal();
         if let Some(second) = nouns.get(1).filter(|second| *second != reference) {
             if direction == Direction::Between {
-                pairs[0].and = Some(second.clone());
+                pairs[0].and = Some(Reference::of(second));
             }
             pairs.push(pair(second, direction));
         }
@@ -307,8 +307,9 @@ impl Words<'_> {
 
     fn object(&self) -> Meaning {
         let known = self.nouns(|class| class == Class::Object).last().map(str::to_string);
+        let indefinite = known.is_some() && self.has(&["a", "an", "some"]) && !self.has(&["the"]);
         let (object, score) = match known {
-            Some(name) if self.has(&["a", "an", "some"]) && !self.has(&["the"]) => (Some(name), 0.8),
+            Some(name) if indefinite => (Some(name), 0.8),
             Some(name) => (Some(name), 0.97),
             None => match self.furniture_asked_for() {
                 Some(name) => (Some(name), 0.85),
@@ -316,14 +317,7 @@ impl Words<'_> {
             },
         };
         let because = object.as_ref().map_or("names no object".to_string(), |name| format!("names `{name}`"));
-        Meaning {
-            object,
-            indefinite: score == 0.8,
-            attributes: self.attributes(),
-            score,
-            because,
-            ..Meaning::default()
-        }
+        Meaning { object, indefinite, attributes: self.attributes(), score, because, ..Meaning::default() }
     }
 
     /// "The lamp is (on the desk)": furniture that stands on furniture.
@@ -353,12 +347,13 @@ pub fn settle_target(grounding: &mut Grounding, lexicon: &Lexicon) {
     if grounding.nodes.iter().any(|node| node.target.is_some()) {
         return;
     }
-    let holds =
-        |pair: &Pair| pair.direction == Direction::Side && lexicon.class_of(&pair.reference) == Some(Class::TableLike);
+    let holds = |pair: &Pair| {
+        pair.direction == Direction::Side && lexicon.class_of(pair.reference.name()) == Some(Class::TableLike)
+    };
     for node in &mut grounding.nodes {
         if let Some(at) = node.pairs.iter().position(holds) {
             let table = node.pairs.remove(at);
-            node.target = Some(table.reference);
+            node.target = Some(table.reference.to_string());
             node.ordinal = table.ordinal;
             node.score = 0.7.into();
             return;

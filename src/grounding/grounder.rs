@@ -10,7 +10,7 @@ use super::words::{ChunkWords, chunk_words_of};
 use super::{Meaning, assemble};
 use crate::language::tokens::{Word, tokenize};
 use crate::language::{Class, Lexicon, Role, Unit, UnitKind, units};
-use crate::record::{Chunk, Grounding, Tag, TextSpan, Token, Why};
+use crate::record::{Chunk, Grounding, Reference, Tag, TextSpan, Token, Why};
 
 /// How chunks get their meaning.
 #[derive(Clone, Debug, Default)]
@@ -109,13 +109,15 @@ fn resolve_it(chunks: &[ChunkWords], meanings: &mut [Meaning], lexicon: &Lexicon
     for (chunk, meaning) in chunks.iter().zip(meanings) {
         let it =
             chunk.words.windows(2).any(|two| matches!(two[0].lower.as_ref(), "behind" | "of") && two[1].lower == "it");
-        if let Some(noun) = last.as_ref().filter(|_| it && meaning.pairs.iter().all(|pair| pair.reference == "robot")) {
+        if let Some(noun) =
+            last.as_ref().filter(|_| it && meaning.pairs.iter().all(|pair| pair.reference == Reference::Robot))
+        {
             meaning.pairs = meaning.pairs.iter().map(|of_it| pair(noun, of_it.direction)).collect();
             meaning.because.push_str(&format!("; \"it\" is the {}", noun.replace('_', " ")));
         }
-        let furniture = |noun: &&String| lexicon.class_of(noun).is_some_and(Class::is_furniture);
-        let references = meaning.pairs.iter().map(|pair| &pair.reference);
-        last = meaning.target.iter().chain(references).find(furniture).cloned().or(last);
+        let furniture = |noun: &String| lexicon.class_of(noun).is_some_and(Class::is_furniture);
+        let references = meaning.pairs.iter().filter_map(|pair| pair.reference.thing()).map(str::to_string);
+        last = meaning.target.iter().cloned().chain(references).find(furniture).or(last);
     }
 }
 
@@ -178,7 +180,7 @@ fn why(chunk: &ChunkWords, meaning: &Meaning) -> Why {
         kind: meaning.kind.map(|kind| kind.name().to_string()),
         room: meaning.room.clone().or_else(|| meaning.side.map(|side| side.name().to_string())),
         object: meaning.object.clone(),
-        reference: pair.map(|pair| pair.reference.clone()),
+        reference: pair.map(|pair| pair.reference.to_string()),
         direction: pair.map(|pair| pair.direction),
         target: meaning.target.clone(),
         score: meaning.score.into(),

@@ -2,7 +2,7 @@
 
 use super::frames_to_try;
 use crate::language::Lexicon;
-use crate::record::{Action, Amount, Direction, Frame, Node, Pair, SearchPair};
+use crate::record::{Action, Amount, Direction, Frame, Motion, Node, Pair, Reference, SearchPair};
 
 /// The actions for the nodes, ending in exactly one search with the object's search behind it.
 pub fn actions_for(nodes: &[Node], object: Option<&str>, lexicon: &Lexicon) -> Vec<Action> {
@@ -24,7 +24,9 @@ fn merge_repeated_targets(nodes: &[Node], lexicon: &Lexicon) -> Vec<Node> {
     for node in nodes {
         let same = |other: &Node| same_kind(other.target.as_deref(), node.target.as_deref(), lexicon);
         match merged.last_mut() {
-            Some(last) if node.target.is_some() && same(last) && node.pairs.iter().all(|p| p.reference != "move") => {
+            Some(last)
+                if node.target.is_some() && same(last) && node.pairs.iter().all(|p| p.reference != Reference::Move) =>
+            {
                 last.pairs.extend(node.pairs.iter().filter(|p| !last.pairs.contains(p)).cloned().collect::<Vec<_>>());
                 last.attributes.extend(node.attributes.iter().cloned());
             }
@@ -53,7 +55,7 @@ fn actions_of_node(node: &Node, is_last: bool, ends_here: bool, lexicon: &Lexico
     }
     // On the way to a target the last "go forward" ends at the target itself.
     if node.target.is_some() && is_last {
-        while matches!(actions.last(), Some(Action::Move { direction: Direction::Front, amount: None })) {
+        while matches!(actions.last(), Some(Action::Move { motion: Motion::Ahead, amount: None })) {
             actions.pop();
         }
     }
@@ -72,29 +74,31 @@ fn actions_of_node(node: &Node, is_last: bool, ends_here: bool, lexicon: &Lexico
 
 /// The motion a pair asks for, or nothing when it says where the target is.
 fn motion(pair: &Pair, has_target: bool, ends_here: bool, lexicon: &Lexicon) -> Option<Action> {
-    match (pair.reference.as_str(), pair.direction) {
-        ("move", direction) => Some(Action::Move { direction, amount: pair.amount.clone() }),
-        ("robot", _) => None,
+    match (&pair.reference, pair.direction) {
+        (Reference::Move, direction) => {
+            let motion = Motion::from_direction(direction)?;
+            Some(Action::Move { motion, amount: pair.amount.clone() })
+        }
+        (Reference::Robot, _) => None,
         _ if has_target => None,
-        ("wall", Direction::Side) => {
-            Some(Action::Move { direction: Direction::Front, amount: Some(Amount::Until("wall".to_string())) })
+        (Reference::Wall, Direction::Side) => {
+            Some(Action::Move { motion: Motion::Ahead, amount: Some(Amount::Until(Reference::Wall)) })
         }
         // The last place said is where to look; one said before other steps is gone to.
         _ if ends_here => None,
-        (_, direction) => Some(go(&pair.reference, direction, pair, lexicon)),
+        _ => Some(go(pair, lexicon)),
     }
 }
 
-fn go(reference: &str, direction: Direction, pair: &Pair, lexicon: &Lexicon) -> Action {
-    Action::Go { reference: reference.to_string(), direction, frame: pair.frame, frames: frames_to_try(pair, lexicon) }
+fn go(pair: &Pair, lexicon: &Lexicon) -> Action {
+    let (reference, direction, frame) = (pair.reference.clone(), pair.direction, pair.frame);
+    Action::Go { reference, direction, frame, frames: frames_to_try(pair, lexicon) }
 }
 
 /// Furniture on the way: it is passed, not searched.
 fn waypoint(target: &str, lexicon: &Lexicon) -> Action {
-    let direction = Direction::Side;
-    let pair =
-        Pair { reference: target.to_string(), direction, frame: Frame::Viewer, and: None, amount: None, ordinal: None };
-    go(target, direction, &pair, lexicon)
+    let (reference, direction) = (Reference::of(target), Direction::Side);
+    go(&Pair { reference, direction, frame: Frame::Viewer, and: None, amount: None, ordinal: None }, lexicon)
 }
 
 fn search_pair(pair: &Pair, lexicon: &Lexicon) -> SearchPair {
@@ -125,7 +129,7 @@ mod tests {
 
     fn pair(reference: &str, direction: Direction) -> Pair {
         let frame = if matches!(reference, "move" | "robot") { Frame::Robot } else { Frame::Viewer };
-        Pair { reference: reference.to_string(), direction, frame, and: None, amount: None, ordinal: None }
+        Pair { reference: Reference::of(reference), direction, frame, and: None, amount: None, ordinal: None }
     }
 
     fn node(target: Option<&str>, pairs: Vec<Pair>) -> Node {

@@ -4,7 +4,7 @@ use super::actions::actions_for;
 use super::rooms::choose_room;
 use crate::language::Lexicon;
 use crate::map::RoomMap;
-use crate::record::{Action, Direction, Grounding, Note, Plan, Record, Stage, StageError};
+use crate::record::{Action, Grounding, Motion, Note, Plan, Record, Stage, StageError};
 
 /// Makes plans for one room map.
 #[derive(Debug)]
@@ -42,14 +42,14 @@ impl Planner {
 
 impl Stage for Planner {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
-        let grounding: Grounding = record.require("grounding", "pipe the record through `ground` first")?;
+        let grounding: Grounding = record.require_part("pipe the record through `ground` first")?;
         let plan = self.plan(&grounding);
-        record.set("plan", &plan);
+        record.put(&plan);
         Ok(if plan.actions.is_empty() { Note::Lossy(plan.problems.join("; ")) } else { Note::Done })
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
-        let plan: Plan = record.require("plan", "it is what `plan` adds")?;
+        let plan: Plan = record.require_part("it is what `plan` adds")?;
         let mut lines = Vec::new();
         if let Some(text) = record.get::<String>("text")? {
             lines.push(text);
@@ -68,16 +68,17 @@ fn sentence(action: &Action) -> String {
             format!("enter the {}, then try {}", words(room), list(candidates))
         }
         Action::Enter { room: None, candidates } => format!("try the rooms in turn: {}", list(candidates)),
-        Action::Move { direction, amount } => {
-            let verb = match direction {
-                Direction::Front => "go forward".to_string(),
-                Direction::Back => "turn around".to_string(),
-                other => format!("turn {}", other.name()),
+        Action::Move { motion, amount } => {
+            let verb = match motion {
+                Motion::Ahead => "go forward",
+                Motion::TurnLeft => "turn left",
+                Motion::TurnRight => "turn right",
+                Motion::TurnRound => "turn around",
             };
-            amount.as_ref().map_or(verb.clone(), |amount| format!("{verb}, {}", amount.phrase()))
+            amount.as_ref().map_or(verb.to_string(), |amount| format!("{verb}, {}", amount.phrase()))
         }
         Action::Go { reference, direction, frame, .. } => {
-            format!("go to the {} of the {} ({} frame)", direction.name(), words(reference), frame.name())
+            format!("go to the {} of the {} ({} frame)", direction.name(), reference.words(), frame.name())
         }
         Action::Search { target, attributes, pairs, .. } => {
             let target = target.as_deref().map_or("any table-like furniture".to_string(), words);

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Rounded, Tag};
+use super::{Direction, Frame, Motion, Reference, Rounded, Tag};
 
 /// What the robot understood: room, RDT nodes and object of the best reading.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -104,16 +104,18 @@ pub struct Node {
 
 /// A reference and the direction from it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "PairAsWritten")]
+#[schemars(!try_from)]
 pub struct Pair {
-    /// `move`, `room`, `wall`, `door`, `robot`, or a noun in lower_snake.
-    pub reference: String,
+    /// What the direction is told from.
+    pub reference: Reference,
     /// Where, seen from the reference.
     pub direction: Direction,
     /// The axes in which the direction is read; the likeliest when there are several.
     pub frame: Frame,
-    /// The second reference of `between`.
+    /// The second reference of `between`; without it, between several things of the first one's noun.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub and: Option<String>,
+    pub and: Option<Reference>,
     /// How far, or until what.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amount: Option<Amount>,
@@ -122,85 +124,47 @@ pub struct Pair {
     pub ordinal: Option<u32>,
 }
 
+/// A pair as it stands in a record, before it is seen whether it can be meant.
+#[derive(Deserialize)]
+struct PairAsWritten {
+    reference: Reference,
+    direction: Direction,
+    frame: Frame,
+    #[serde(default)]
+    and: Option<Reference>,
+    #[serde(default)]
+    amount: Option<Amount>,
+    #[serde(default)]
+    ordinal: Option<u32>,
+}
+
+impl TryFrom<PairAsWritten> for Pair {
+    type Error = String;
+
+    fn try_from(pair: PairAsWritten) -> Result<Self, String> {
+        let PairAsWritten { reference, direction, frame, and, amount, ordinal } = pair;
+        if reference == Reference::Move && Motion::from_direction(direction).is_none() {
+            return Err(format!(
+                "a move goes front, or turns left, right or back; `{}` is none of them",
+                direction.name()
+            ));
+        }
+        if direction == Direction::Between && and.is_none() && reference.thing().is_none() {
+            return Err(format!("`between` needs two references: name the other beside `{reference}` in `and`"));
+        }
+        Ok(Self { reference, direction, frame, and, amount, ordinal })
+    }
+}
+
 impl Pair {
     /// The pair in words: "back of the couch".
     pub fn phrase(&self) -> String {
-        let reference = self.reference.replace('_', " ");
+        let reference = self.reference.words();
         match (self.direction, &self.and) {
-            (Direction::Between, Some(and)) => format!("between the {reference} and the {}", and.replace('_', " ")),
+            (Direction::Between, Some(and)) => format!("between the {reference} and the {}", and.words()),
             (Direction::Between, None) => format!("between the {reference}s"),
             (Direction::Side, _) => format!("next to the {reference}"),
             (direction, _) => format!("{} of the {reference}", direction.name()),
-        }
-    }
-}
-
-/// The paper's seven directions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Direction {
-    /// In front, ahead, nearer the door.
-    Front,
-    /// Behind, at the far end.
-    Back,
-    /// To the left.
-    Left,
-    /// To the right.
-    Right,
-    /// In the middle.
-    Central,
-    /// Next to, by, with, against.
-    Side,
-    /// Between two references.
-    Between,
-}
-
-impl Direction {
-    /// The name as it stands in records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Front => "front",
-            Self::Back => "back",
-            Self::Left => "left",
-            Self::Right => "right",
-            Self::Central => "central",
-            Self::Side => "side",
-            Self::Between => "between",
-        }
-    }
-
-    /// Left for right and right for left; the others as they are.
-    pub const fn mirrored(self) -> Self {
-        match self {
-            Self::Left => Self::Right,
-            Self::Right => Self::Left,
-            other => other,
-        }
-    }
-}
-
-/// The axes in which a direction is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Frame {
-    /// The robot's pose when the words are reached.
-    Robot,
-    /// The heading at which the room is entered, wherever the robot stands: front is nearer the door.
-    Viewer,
-    /// The item's own front, left and right.
-    Intrinsic,
-    /// Seen by someone who stands before the item's front and looks at it: left and right mirrored.
-    Facing,
-}
-
-impl Frame {
-    /// The name as it stands in records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Robot => "robot",
-            Self::Viewer => "viewer",
-            Self::Intrinsic => "intrinsic",
-            Self::Facing => "facing",
         }
     }
 }
@@ -218,7 +182,7 @@ pub enum Amount {
     /// A turn in degrees.
     Degrees(f64),
     /// Until something is reached: `wall`, `door`, `room`, or a noun.
-    Until(String),
+    Until(Reference),
 }
 
 impl Amount {
@@ -229,7 +193,7 @@ impl Amount {
             Self::Meters(metres) => format!("{metres} m"),
             Self::Steps(steps) => format!("{steps} steps"),
             Self::Degrees(degrees) => format!("{degrees}°"),
-            Self::Until(what) => format!("until the {}", what.replace('_', " ")),
+            Self::Until(what) => format!("until the {}", what.words()),
         }
     }
 }

@@ -52,6 +52,8 @@ pub enum Outcome {
     NotFound,
     /// No safe way on.
     Blocked,
+    /// What was asked of the robot did not come about: it turned, drove or came to rest nowhere.
+    Stuck,
     /// The time allowed was used up.
     Timeout,
     /// Stopped by a person or a signal.

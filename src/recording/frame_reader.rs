@@ -6,6 +6,7 @@ use std::io::Read;
 use super::assembly::Assembly;
 use super::sensed::{Reading, decode, reading_of};
 use super::{LogError, LogReader, Loss, TimedFrame, Window};
+use crate::perception::Told;
 
 /// Which frames of a log are wanted.
 #[derive(Clone, Debug, Default)]
@@ -16,6 +17,8 @@ pub struct FrameOptions {
     pub window: Window,
     /// Salvage what is left of damaged chunks.
     pub recover: bool,
+    /// What is known of the camera of frames whose transforms do not tell where it was.
+    pub told: Told,
 }
 
 /// The frames of a log, and everything that was lost or skipped on the way.
@@ -43,7 +46,7 @@ impl<R: Read> FrameReader<R> {
         Ok(Self {
             log: LogReader::new(source, name, options.recover)?,
             window: options.window,
-            assembly: Assembly::new(options.topics),
+            assembly: Assembly::new(options.topics, options.told),
             ready: VecDeque::new(),
             channels: BTreeMap::new(),
             frames: 0,
@@ -98,7 +101,8 @@ impl<R: Read> FrameReader<R> {
             .map(|(topic, s)| format!("{topic} ({}, {}, {} messages)", s.schema, s.encoding, s.messages))
             .collect();
         let has = if topics.is_empty() { "no messages at all".to_string() } else { topics.join(", ") };
-        self.ready.push_back(Err(Loss(format!("no frame in this log; it has {has}"))));
+        let doubtful = self.assembly.doubtful.values().map(|why| format!("; {why}")).collect::<String>();
+        self.ready.push_back(Err(Loss(format!("no frame in this log; it has {has}{doubtful}"))));
     }
 }
 

@@ -12,10 +12,9 @@ use mcap::read::{ChannelAccumulator, parse_record};
 use mcap::records::{Record, op};
 
 use super::chunk::unpack;
+use super::link::link;
 use super::{LogError, Loss};
-
-/// No record is longer than this: a length beyond it is damage, bytes.
-pub(super) const LONGEST_RECORD: u64 = 1 << 28;
+use crate::limits::MCAP_RECORD_BYTES;
 
 /// The messages of a log in its order, those of a chunk by their time, with everything that was lost on the way.
 ///
@@ -75,7 +74,7 @@ impl<R: Read> LogReader<R> {
         if got < head.len() {
             return self.cut(begins);
         }
-        if length > LONGEST_RECORD {
+        if length > MCAP_RECORD_BYTES.value {
             return self.lose(Loss::at(begins, "damaged: a record with an impossible length; what follows is lost"));
         }
         let mut body = Vec::new();
@@ -195,29 +194,4 @@ impl<R: Read> Iterator for LogReader<R> {
         }
         self.ready.pop_front()
     }
-}
-
-/// Takes a schema, channel or message record; a message comes out with its channel.
-pub(super) fn link(
-    opcode: u8,
-    body: &[u8],
-    links: &mut ChannelAccumulator<'static>,
-) -> mcap::McapResult<Option<Message<'static>>> {
-    match parse_record(opcode, body)? {
-        Record::Schema { header, data } => links.add_schema_from_slice(header, &data)?,
-        Record::Channel(channel) => links.add_channel(channel)?,
-        Record::Message { header, data } => {
-            let unknown = mcap::McapError::UnknownChannel(header.sequence, header.channel_id);
-            let channel = links.get(header.channel_id).ok_or(unknown)?;
-            return Ok(Some(Message {
-                channel,
-                sequence: header.sequence,
-                log_time: header.log_time,
-                publish_time: header.publish_time,
-                data: data.into_owned().into(),
-            }));
-        }
-        _ => {}
-    }
-    Ok(None)
 }

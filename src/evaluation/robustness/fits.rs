@@ -1,10 +1,9 @@
 //! Whether a reference–direction pair is true of a piece, by the truth.
 
-use super::gold_home::is_place;
 use crate::behavior::motion::RoomFrame;
 use crate::geometry::{Pose, distance_to_segment};
 use crate::map::RoomMap;
-use crate::record::{Direction, Frame, Pair};
+use crate::record::{Direction, Frame, Pair, Reference};
 use crate::simulation::Item;
 use crate::simulation::arrange::relations::{AT_WALL_M, NEAR_M, part, standing};
 
@@ -25,12 +24,12 @@ pub(super) struct Told<'a> {
 
 /// Whether what a pair says of robot, room, wall or door is true; pairs with other references say nothing here.
 pub(super) fn in_place(item: &Item, pair: &Pair, told: Told) -> bool {
-    match pair.reference.as_str() {
-        "robot" => by_robot(item, pair.direction, told.arrived),
-        "room" => in_room(item, pair.direction, told),
-        "wall" => at_wall(item, pair.direction, told),
-        "door" => by_door(item, pair.direction, told),
-        _ => true,
+    match &pair.reference {
+        Reference::Robot => by_robot(item, pair.direction, told.arrived),
+        Reference::Room => in_room(item, pair.direction, told),
+        Reference::Wall => at_wall(item, pair.direction, told),
+        Reference::Door => by_door(item, pair.direction, told),
+        Reference::Move | Reference::Thing(_) => true,
     }
 }
 
@@ -95,7 +94,7 @@ fn by_door(item: &Item, direction: Direction, told: Told) -> bool {
 
 /// Whether a pair is true of `item` with this `landmark`.
 pub(super) fn related(item: &Item, landmark: &Item, pair: &Pair, told: Told) -> bool {
-    if is_place(&pair.reference) {
+    if pair.reference.thing().is_none() {
         return false;
     }
     let stands = standing(item, landmark, told.frame.entry);

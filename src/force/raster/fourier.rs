@@ -4,7 +4,7 @@ use rustfft::num_complex::Complex;
 use rustfft::{FftDirection, FftPlanner};
 
 use super::corners::Corner;
-use super::correlation::{Count, Shifts};
+use super::nodes::{Count, Shifts};
 
 type Plane = Vec<Complex<f64>>;
 

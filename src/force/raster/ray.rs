@@ -7,7 +7,8 @@
 use multiversion::multiversion;
 
 use super::super::Force;
-use super::correlation::{Count, Counts, Covariogram, Shifts};
+use super::correlation::{Counts, Covariogram};
+use super::nodes::{Count, Shifts};
 use super::stretch::Stretch;
 
 /// Columns worked on at a time.

@@ -7,9 +7,8 @@ use super::Obstacles;
 use super::ears::Ears;
 use super::wheels::{Wheels, moved};
 use crate::geometry::{Pose, angle_between, wrap_angle};
-use crate::robot::{MobileBase, RobotError, SonarReading, Status, p3dx};
-use crate::simulation::Dice;
-use crate::simulation::Noise;
+use crate::robot::{Body, MobileBase, RobotError, SonarReading, Status, p3dx};
+use crate::simulation::{Dice, Noise};
 
 /// Integration step, seconds.
 const STEP_S: f64 = 0.02;
@@ -162,7 +161,7 @@ impl SimulatedBase {
         let clearance = if self.known_clear_m > of_interest + 1e-9 {
             self.known_clear_m
         } else {
-            self.obstacles.clearance(&p3dx::outline(truth.pose), truth.pose.position(), CLEARANCE_REACH_M)
+            self.obstacles.clearance(&p3dx::BODY.outline(truth.pose), truth.pose.position(), CLEARANCE_REACH_M)
         };
         self.known_clear_m = clearance;
         truth.min_clearance_m = truth.min_clearance_m.min(clearance);
@@ -188,6 +187,10 @@ fn toward(now: f64, wanted: f64, accelerate: f64, brake: f64) -> f64 {
 }
 
 impl MobileBase for SimulatedBase {
+    fn body(&self) -> Body {
+        p3dx::BODY
+    }
+
     fn pose(&self) -> Pose {
         self.odometry
     }

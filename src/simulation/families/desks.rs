@@ -1,8 +1,8 @@
 //! Desks: a top on legs or panels, with drawers, a back panel, a rack.
 
+use super::drawers::fronts;
 use super::finishes::{metal, shade, wooden};
 use super::parts::{block, legs};
-use super::storage::fronts;
 use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Frustum};
 

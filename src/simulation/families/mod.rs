@@ -16,6 +16,7 @@
 mod beds;
 mod chairs;
 mod desks;
+mod drawers;
 mod finishes;
 mod lamps;
 mod parts;
