@@ -1,7 +1,7 @@
 //! `drive` as a stage of the pipeline.
 
 use super::missing::missing;
-use super::{Home, Settings, run, stream_of};
+use super::{Home, TrialSettings, run, stream_of};
 use crate::behavior::{Run, Several, Watcher, plan_of, row_of, shade_of, text_of};
 use crate::frame::RgbdFrame;
 use crate::record::{Note, Plan, Record, Row, Shade, Stage, StageError};
@@ -13,7 +13,7 @@ pub struct Driver {
     /// Where.
     pub home: Home,
     /// How.
-    pub settings: Settings,
+    pub settings: TrialSettings,
     /// What to leave beside the record.
     pub outputs: Outputs,
     /// Whether what the home does not have is looked for all the same.

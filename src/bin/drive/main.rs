@@ -13,7 +13,7 @@ use spatial_fetch::cli::{
 };
 use spatial_fetch::files::write_file;
 use spatial_fetch::record::Trial;
-use spatial_fetch::simulation::{Driver, Inventory, NoiseLevel, Settings, drawn};
+use spatial_fetch::simulation::{Driver, Inventory, NoiseLevel, TrialSettings, drawn};
 
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
@@ -126,8 +126,8 @@ impl Arguments {
     }
 
     /// How the simulated robot is, with that noise where none is given.
-    fn settings(&self, usual: NoiseLevel) -> Settings {
-        Settings {
+    fn settings(&self, usual: NoiseLevel) -> TrialSettings {
+        TrialSettings {
             options: self.executive.options(),
             perception: self.eyes.perception,
             kinect: self.eyes.kinect(),
