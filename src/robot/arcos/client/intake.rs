@@ -1,11 +1,17 @@
 //! What comes from the robot, and what follows from it.
 
+use std::time::Duration;
+
 use super::Client;
 use super::odometry::Taken;
 use crate::robot::arcos::codec::{Config, Packet, Sip};
 use crate::robot::arcos::line::Line;
 use crate::robot::{SonarReading, Status};
 
+/// The sonars before this one look ahead.
+const FIRST_REAR_SONAR: u8 = 8;
+/// An echo older than this, two or three sweeps, is no echo.
+const SONARS_SILENT: Duration = Duration::from_millis(800);
 /// Longer without a packet than this many cycles is told.
 const LATE_CYCLES: f64 = 1.7;
 
@@ -45,8 +51,10 @@ impl<L: Line> Client<L> {
         report.motors = sip.flags.motors_enabled();
         report.emergency_stop = sip.flags.emergency_stopped();
         report.sips += 1;
+        report.heard_at = now;
         for (number, range) in &sip.sonar {
             let Some((mount, bearing)) = p.sonars.sonar(*number) else { continue };
+            self.sonar_at[usize::from(*number >= FIRST_REAR_SONAR)] = Some(now);
             let reading = SonarReading { mount, bearing, range_m: f64::from(*range) * p.range_m };
             match report.sonar.iter_mut().find(|known| known.bearing == bearing && known.mount == mount) {
                 Some(known) => *known = reading,
@@ -68,9 +76,19 @@ impl<L: Line> Client<L> {
             self.hold("a wheel is stalled");
         } else if self.wants_motors && !self.report.motors {
             self.hold("the motors are disabled");
+        } else if let Some(end) = self.deaf_end() {
+            self.hold(&format!("the {end} sonars have fallen silent"));
         } else if self.settings.resume && self.report.motors && self.report.held.take().is_some() {
             self.note("free again: going on");
         }
+    }
+
+    /// The end whose sonars were heard once and are no more.
+    fn deaf_end(&self) -> Option<&'static str> {
+        let now = self.line.now();
+        let is_deaf = |at: Option<Duration>| at.is_some_and(|at| now.saturating_sub(at) > SONARS_SILENT);
+        let ends = self.sonar_at.into_iter().zip(["front", "rear"]);
+        ends.into_iter().find_map(|(at, end)| is_deaf(at).then_some(end))
     }
 
     /// Holds the robot: no velocity is passed on until someone allows it.
