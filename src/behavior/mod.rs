@@ -43,5 +43,5 @@ pub use localizer::Localizer;
 pub use pilot::{Halt, grid_of};
 pub use relation::Place;
 pub use route::{length, route};
-pub use trial_record::{Run, plan_of, rounded, text_of};
+pub use trial_record::{Run, note_of, plan_of, rounded, text_of};
 pub use watcher::{Silent, Watcher};

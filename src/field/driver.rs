@@ -4,7 +4,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::frame_stream::Tell;
-use crate::behavior::{Executive, Furniture, Options, Run, Silent, Watcher, plan_of, rounded, text_of};
+use crate::behavior::{Executive, Furniture, Options, Run, Silent, Watcher, note_of, plan_of, rounded, text_of};
 use crate::frame::{Camera, RgbdFrame};
 use crate::geometry::{ClearanceGrid, Pose};
 use crate::map::RoomMap;
@@ -107,7 +107,7 @@ impl RealDriver {
         self.robot.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
+    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<Note, StageError> {
         let failed = |error: String| StageError::new(error);
         let mut robot = self.robot();
         let Robot { base, eyes } = &mut *robot;
@@ -134,11 +134,13 @@ impl RealDriver {
         let picture = eyes.frame().map(RgbdFrame::color_png);
         self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, id)?;
         record.set("trial", &run.trial);
-        let Some(recorder) = log.recorder else { return Ok(()) };
+        let note = note_of(&run.trial);
+        let Some(recorder) = log.recorder else { return Ok(note) };
         let line = serde_json::to_string(record).map_err(|error| failed(error.to_string()))?;
         recorder
             .finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line)
-            .map_err(|error| failed(error.to_string()))
+            .map_err(|error| failed(error.to_string()))?;
+        Ok(note)
     }
 }
 
@@ -249,7 +251,7 @@ impl Stage for RealDriver {
         self.busy.set(true);
         let driven = self.drive(record, &plan, &id);
         self.busy.set(false);
-        driven.map(|()| Note::Done)
+        driven
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {

@@ -1,7 +1,7 @@
 //! `drive` as a stage of the pipeline.
 
 use super::{Home, Settings, run, stream_of};
-use crate::behavior::{Silent, Watcher, plan_of, text_of};
+use crate::behavior::{Silent, Watcher, note_of, plan_of, text_of};
 use crate::record::{Note, Plan, Record, Stage, StageError};
 use crate::recording::{About, LogError, Outputs, Recorder};
 
@@ -17,7 +17,7 @@ pub struct Driver {
 }
 
 impl Driver {
-    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
+    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<Note, StageError> {
         let failed = |error: LogError| StageError::new(error.to_string());
         let truth = self.home.pieces();
         let about = About {
@@ -42,9 +42,11 @@ impl Driver {
         let picture = wants_picture.then(|| self.home.take_picture(run.final_pose).color_png());
         self.outputs.leave((&self.home.map, &truth), &mut run, picture.as_deref(), record, id)?;
         record.set("trial", &run.trial);
-        let (Some(recorder), Some(picture)) = (recorder, picture) else { return Ok(()) };
+        let note = note_of(&run.trial);
+        let (Some(recorder), Some(picture)) = (recorder, picture) else { return Ok(note) };
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
-        recorder.finish(run.trial.duration_s.0, picture, &line).map_err(failed)
+        recorder.finish(run.trial.duration_s.0, picture, &line).map_err(failed)?;
+        Ok(note)
     }
 }
 
@@ -52,8 +54,7 @@ impl Stage for Driver {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
         let plan = plan_of(record, &self.home.map)?;
         let id = record.id().unwrap_or_else(|| "record".to_string());
-        self.drive(record, &plan, &id)?;
-        Ok(Note::Done)
+        self.drive(record, &plan, &id)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
