@@ -1,8 +1,8 @@
 //! How the pilot turns and drives along a way.
 
+use super::foresight::trapezoid;
 use super::furniture::Furniture;
 use super::getting_clear::{End, GUARD_M};
-use super::foresight::trapezoid;
 use super::pilot::{Halt, PLAIN_VIEW_M, Pilot, TICK_S};
 use super::progress::Progress;
 use super::route::{length, route};
@@ -261,11 +261,7 @@ impl Pilot<'_> {
 }
 
 /// The places well inside an outline where the robot can turn.
-fn free_inside<'a>(
-    grid: &'a ClearanceGrid,
-    outline: &'a Polygon,
-    to_turn: f64,
-) -> impl Iterator<Item = Vec2> + 'a {
+fn free_inside<'a>(grid: &'a ClearanceGrid, outline: &'a Polygon, to_turn: f64) -> impl Iterator<Item = Vec2> + 'a {
     let (low, high) = outline.bounds();
     let (from, to) = (grid.cell(low), grid.cell(high));
     let cells = (from.0..=to.0).flat_map(move |x| (from.1..=to.1).map(move |y| (x, y)));

@@ -159,10 +159,7 @@ fn follow(body: &Body, now: Velocity, asked: Velocity) -> Velocity {
     let linear = asked.0.clamp(-body.speed_m_s, body.speed_m_s);
     let angular = asked.1.clamp(-body.turn_rad_s, body.turn_rad_s);
     let turning = body.turn_acceleration_rad_s2;
-    (
-        toward(now.0, linear, body.acceleration_m_s2, body.braking_m_s2),
-        toward(now.1, angular, turning, turning),
-    )
+    (toward(now.0, linear, body.acceleration_m_s2, body.braking_m_s2), toward(now.1, angular, turning, turning))
 }
 
 fn toward(now: f64, wanted: f64, accelerate: f64, brake: f64) -> f64 {

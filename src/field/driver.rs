@@ -133,7 +133,7 @@ impl RealDriver {
         log.drain(base.time_s());
         let picture = eyes.frame().map(RgbdFrame::color_png);
         self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, id)?;
-        record.set("trial", &run.trial);
+        record.put(&run.trial);
         let note = note_of(&run.trial);
         let Some(recorder) = log.recorder else { return Ok(note) };
         let line = serde_json::to_string(record).map_err(|error| failed(error.to_string()))?;
@@ -170,6 +170,7 @@ fn run(
         spl: None,
         collisions: 0,
         min_clearance_m: None,
+        delivered: report.delivered,
         actions: report.journal.actions,
         path,
     };

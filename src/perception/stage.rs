@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::external::ExternalDetector;
-use super::{Detector, FrameFiles, View, check, overlay};
+use super::{Detector, FrameFiles, ObjectSighting, Told, View, check, overlay};
 use crate::files::write_file;
 use crate::frame::RgbdFrame;
 use crate::map::RoomMap;
-use crate::record::{Detection, Note, Record, Stage, StageError};
+use crate::record::{CameraPose, Detection, Note, PoseSource, Record, Rounded, Stage, StageError};
 
 /// Finds furniture in frames, from files or from anywhere else.
 #[derive(Clone, Debug, Default)]
@@ -21,6 +21,10 @@ pub struct Perceiver {
     pub external: Option<Arc<ExternalDetector>>,
     /// The rooms, when they are known.
     pub map: Option<RoomMap>,
+    /// What is known of the camera of frames that do not tell where it was.
+    pub told: Told,
+    /// What is less sure than this is left out.
+    pub least_confidence: f64,
     /// Where to draw what was found.
     pub overlay: Option<PathBuf>,
     /// Whether drawings may replace older ones.
@@ -35,19 +39,23 @@ impl Perceiver {
             None => self.detector.detect(frame, self.map.as_ref()),
             Some(external) => external_view(external, frame)?,
         };
+        let furniture = view.furniture.into_iter().filter(|piece| piece.confidence >= self.least_confidence).collect();
+        let view = View { furniture, ..view };
         self.draw(name, frame, &view)?;
         Ok(view)
     }
 
-    /// Adds what a frame from a log shows to its record.
-    pub fn see(&self, frame: &RgbdFrame, record: &mut Record) -> Result<Note, StageError> {
+    /// Adds what a frame from a log shows to its record; `from` says how its pose is known.
+    pub fn see(&self, frame: &RgbdFrame, from: PoseSource, record: &mut Record) -> Result<Note, StageError> {
         let name = record.get::<String>("frame")?.or_else(|| record.id());
-        self.add(name.as_deref().unwrap_or("frame"), frame, record)
+        self.add(name.as_deref().unwrap_or("frame"), frame, from, record)
     }
 
-    fn add(&self, name: &str, frame: &RgbdFrame, record: &mut Record) -> Result<Note, StageError> {
+    fn add(&self, name: &str, frame: &RgbdFrame, from: PoseSource, record: &mut Record) -> Result<Note, StageError> {
         let view = self.look(name, frame)?;
-        record.set("detections", &view.furniture);
+        record.set("camera", &CameraPose::new(frame.world_from_camera, from));
+        record.put(&view.furniture);
+        record.set("objects", &view.objects.into_iter().map(rounded).collect::<Vec<_>>());
         Ok(Note::Done)
     }
 
@@ -63,15 +71,20 @@ impl Perceiver {
     }
 
     /// The frame a record names.
-    pub fn frame_of(&self, record: &Record) -> Result<(String, RgbdFrame), StageError> {
+    pub fn frame_of(&self, record: &Record) -> Result<(String, RgbdFrame, PoseSource), StageError> {
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
         let files: FrameFiles = serde_json::from_str(&line).map_err(|error| {
             let what = crate::record::message_without_position(&error);
             StageError::new(format!("{what}; a frame needs depth, fx, fy, cx, cy and depth_unit_m"))
         })?;
-        let frame = files.load(&self.folder).map_err(|error| StageError::new(error.to_string()))?;
-        Ok((files.frame.unwrap_or_else(|| stem(&files.depth)), frame))
+        let (frame, from) = files.load(&self.folder, self.told).map_err(|error| StageError::new(error.to_string()))?;
+        Ok((files.frame.unwrap_or_else(|| stem(&files.depth)), frame, from))
     }
+}
+
+fn rounded(object: ObjectSighting) -> ObjectSighting {
+    let [x, y] = [object.x, object.y].map(|value| Rounded(value).value());
+    ObjectSighting { x, y, ..object }
 }
 
 fn stem(path: &Path) -> String {
@@ -93,12 +106,12 @@ fn external_view(external: &ExternalDetector, frame: &RgbdFrame) -> Result<View,
 
 impl Stage for Perceiver {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
-        let (name, frame) = self.frame_of(record)?;
-        self.add(&name, &frame, record)
+        let (name, frame, from) = self.frame_of(record)?;
+        self.add(&name, &frame, from, record)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
-        let detections: Vec<Detection> = record.require("detections", "it is what `perceive` adds")?;
+        let detections: Vec<Detection> = record.require_part("it is what `perceive` adds")?;
         let mut lines: Vec<String> = record.get::<String>("frame")?.into_iter().collect();
         lines.extend(detections.iter().map(text_line));
         Ok(lines.join("\n"))

@@ -14,12 +14,16 @@ use crate::frame::{Camera, RgbdFrame};
 use crate::geometry::{ClearanceGrid, Pose};
 use crate::map::RoomMap;
 use crate::perception::View;
-use crate::record::{Detection, Record};
+use crate::record::{Chunk, Detection, Grounding, Part, Plan, Record, Token, Trial};
 use crate::robot::{MobileBase, SonarReading};
 
 /// The keys the stages add, in their order, under the stage's name.
-const STAGES: [(&str, &[&str]); 4] =
-    [("chunk", &["tokens", "chunks"]), ("ground", &["grounding"]), ("plan", &["plan"]), ("drive", &["trial"])];
+const STAGES: [(&str, &[&str]); 4] = [
+    ("chunk", &[Vec::<Token>::KEY, Vec::<Chunk>::KEY]),
+    ("ground", &[Grounding::KEY]),
+    ("plan", &[Plan::KEY]),
+    ("drive", &[Trial::KEY]),
+];
 
 /// A look, as `perceive` tells it of a frame.
 #[derive(Serialize)]

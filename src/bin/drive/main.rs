@@ -1,7 +1,6 @@
 //! Plans in, trials out.
 
 mod executive;
-mod number;
 mod outputs;
 mod replay;
 mod robot;
@@ -10,12 +9,11 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use spatial_fetch::cli::{
-    self, Common, Exit, EyeArguments, Failure, FromLog, HomeArguments, Intake, Program, Reporter,
+    self, Common, DEAD_TIME_S, Exit, EyeArguments, Failure, FromLog, HomeArguments, Intake, JITTER_S, Program,
+    Reporter, within,
 };
 use spatial_fetch::record::Trial;
 use spatial_fetch::simulation::{Driver, NoiseLevel, Settings};
-
-use crate::number::within;
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
 ///
@@ -33,10 +31,10 @@ struct Arguments {
     #[arg(long, value_enum)]
     noise: Option<NoiseLevel>,
     /// Seconds after which the simulated robot does what it is told, where it is not what its world says
-    #[arg(long, value_name = "SECONDS", value_parser = within(0.0..=1.5))]
+    #[arg(long, value_name = "SECONDS", value_parser = within(DEAD_TIME_S))]
     dead_time: Option<f64>,
     /// Up to so many seconds more, differently each time
-    #[arg(long, value_name = "SECONDS", value_parser = within(0.0..=0.5))]
+    #[arg(long, value_name = "SECONDS", value_parser = within(JITTER_S))]
     jitter: Option<f64>,
     #[command(flatten)]
     eyes: EyeArguments,
@@ -74,10 +72,12 @@ impl Arguments {
     /// With the options of the log that is replayed, where none were given.
     fn with_recorded_options(self, reporter: &Reporter) -> Result<Self, Failure> {
         // What comes through a pipe is read once.
-        let Some(log) = self.log.from.as_ref().filter(|log| log.is_file()) else { return Ok(self) };
-        let Some(replay) = replay::replay(log)? else { return Ok(self) };
-        replay.remarks.iter().for_each(|remark| reporter.remark(remark));
-        Ok(replay.arguments)
+        let Some(log) = self.log.from.clone().filter(|log| log.is_file()) else { return Ok(self) };
+        // A log may say how a robot is simulated, never how a real one is driven.
+        if self.robot.serves() || self.robot.is_real() {
+            return Ok(self);
+        }
+        self.as_recorded_in(&log, reporter)
     }
 
     fn drive(self, reporter: Reporter) -> Result<Exit, Failure> {
@@ -90,8 +90,9 @@ impl Arguments {
         }
         let home = self.home.load()?;
         let settings = self.settings(NoiseLevel::Default);
+        let recorded = self.trial_options().line();
         let watched = self.outputs.is_live();
-        let outputs = self.outputs.outputs(self.common.force, replay::recorded_line()?, &reporter)?;
+        let outputs = self.outputs.outputs(self.common.force, recorded, &reporter)?;
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
         // Nobody watches two trials at once.
         let common = if watched { Common { jobs: 1, ..self.common } } else { self.common };
@@ -116,7 +117,7 @@ impl Arguments {
     fn drive_real(self, reporter: Reporter) -> Result<Exit, Failure> {
         let map = self.home.rooms()?;
         let options = self.executive.options();
-        let outputs = self.outputs.outputs(self.common.force, replay::recorded_line()?, &reporter)?;
+        let outputs = self.outputs.outputs(self.common.force, String::new(), &reporter)?;
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
         // One robot, one plan at a time.
         let common = Common { jobs: 1, ..self.common };

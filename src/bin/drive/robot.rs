@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 use spatial_fetch::behavior::Options;
-use spatial_fetch::cli::{Exit, Failure, Reporter, on_interrupt};
+use spatial_fetch::cli::{Exit, Failure, Reporter, on_interrupt, within};
 use spatial_fetch::field::{NoEyes, RealDriver, StreamEyes, Tell};
 use spatial_fetch::perception::Eyes;
 use spatial_fetch::recording::Outputs;
@@ -18,8 +18,6 @@ use spatial_fetch::robot::p3dx::SonarArray;
 use spatial_fetch::simulation::arcos::DryLine;
 use spatial_fetch::simulation::arcos::{ServeAddress, ServerSettings};
 use spatial_fetch::simulation::{self, Home, Served};
-
-use crate::number::within;
 
 /// The models whose scales are known.
 #[derive(Clone, Copy, Debug, ValueEnum)]

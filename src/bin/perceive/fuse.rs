@@ -73,7 +73,7 @@ impl Gathering<'_> {
 fn look_at_line(perceiver: &Perceiver, line: &Line) -> Result<Option<SceneView>, Diagnostic> {
     let Some(record) = cli::record_of(line, super::INTAKE)? else { return Ok(None) };
     let view = || -> Result<SceneView, StageError> {
-        let (name, frame) = perceiver.frame_of(&record)?;
+        let (name, frame, _) = perceiver.frame_of(&record)?;
         let view = perceiver.look(&name, &frame)?;
         let said = record.get::<String>("scene")?;
         Ok(SceneView::new(said.unwrap_or_else(|| scene_of(&name).to_string()), name, &frame, view))

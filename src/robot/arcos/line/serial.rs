@@ -73,11 +73,15 @@ fn explain(device: &Path, error: io::Error) -> io::Error {
             // Nobody should join root for a cable.
             match group.filter(|group| group != "root") {
                 Some(group) => {
-                    format!("no permission; its group is `{group}`: run `sudo usermod -aG {group} $USER` and log in again")
+                    format!(
+                        "no permission; its group is `{group}`: run `sudo usermod -aG {group} $USER` and log in again"
+                    )
                 }
                 None => {
                     let device = device.display();
-                    format!("no permission; it is root's alone: run `sudo chgrp dialout {device} && sudo chmod g+rw {device}`, then `sudo usermod -aG dialout $USER`, and log in again")
+                    format!(
+                        "no permission; it is root's alone: run `sudo chgrp dialout {device} && sudo chmod g+rw {device}`, then `sudo usermod -aG dialout $USER`, and log in again"
+                    )
                 }
             }
         }
@@ -125,7 +129,11 @@ fn group_name(id: u32) -> Option<String> {
 /// Which serial devices there are, for people.
 fn present_devices() -> String {
     let present = serial_devices();
-    if present.is_empty() { "no serial device is there".to_string() } else { format!("there is {}", present.join(", ")) }
+    if present.is_empty() {
+        "no serial device is there".to_string()
+    } else {
+        format!("there is {}", present.join(", "))
+    }
 }
 
 fn serial_devices() -> Vec<String> {
