@@ -22,8 +22,8 @@ const BASE_ANSWERS: Duration = Duration::from_millis(50);
 /// Without a report for this long, or so many of its cycles, the robot is stopped until it reports again.
 const SILENCE: Duration = Duration::from_millis(400);
 const SILENT_CYCLES: u32 = 4;
-/// What sonars and bumpers forbid is said at most so often.
-const SAY_AGAIN: Duration = Duration::from_secs(5);
+/// That a report is late, or what sonars and bumpers forbid, is said at most so often.
+pub(super) const SAY_AGAIN: Duration = Duration::from_secs(5);
 /// A robot with nothing to do hears from us this often.
 const IDLE: Duration = Duration::from_millis(500);
 /// Faults of the line are summed up over this time.
@@ -63,6 +63,8 @@ pub struct Client<L: Line> {
     pub(super) heard_at: Duration,
     /// Since when sonars and bumpers have been said to have the last word.
     pub(super) guarding: Option<Duration>,
+    /// When a report was last said to be late.
+    pub(super) late_said: Option<Duration>,
     /// The robot has not reported for too long to be driven.
     pub(super) is_silent: bool,
     /// When the front sonars and the rear ones were last heard.
@@ -105,6 +107,7 @@ impl<L: Line> Client<L> {
             zero_at: now,
             heard_at: now,
             guarding: None,
+            late_said: None,
             is_silent: false,
             sonar_at: [None; 2],
             low_battery: false,

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use super::Client;
+use super::connection::SAY_AGAIN;
 use super::odometry::Taken;
 use crate::robot::arcos::codec::{Config, Packet, Sip};
 use crate::robot::arcos::line::Line;
@@ -29,7 +30,9 @@ impl<L: Line> Client<L> {
         let now = self.line.now();
         let gap = now.saturating_sub(self.heard_at);
         let cycle = f64::from(self.config.sip_cycle_ms.unwrap_or(100).max(10)) / 1000.0;
-        if self.report.sips > 0 && gap.as_secs_f64() > LATE_CYCLES * cycle {
+        let is_new = self.late_said.is_none_or(|said| now.saturating_sub(said) > SAY_AGAIN);
+        if self.report.sips > 0 && gap.as_secs_f64() > LATE_CYCLES * cycle && is_new {
+            self.late_said = Some(now);
             self.note(format!("no information packet for {} ms", gap.as_millis()));
         }
         self.heard_at = now;
