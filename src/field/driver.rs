@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use super::frame_stream::Tell;
 use crate::behavior::{
-    Executive, Furniture, Options, Run, Several, Silent, Watcher, object_of, plan_of, rounded, row_of, shade_of,
-    text_of,
+    Executive, Furniture, Options, Run, Several, Silent, Watcher, note_of, object_of, plan_of, rounded, row_of,
+    shade_of, text_of,
 };
 use crate::frame::{Camera, RgbdFrame};
 use crate::geometry::{ClearanceGrid, Pose};
@@ -110,7 +110,7 @@ impl RealDriver {
         self.robot.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
+    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<Note, StageError> {
         let failed = |error: String| StageError::new(error);
         let mut robot = self.robot();
         let Robot { base, eyes } = &mut *robot;
@@ -145,15 +145,17 @@ impl RealDriver {
         let picture = eyes.frame().map(RgbdFrame::color_png);
         self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, id)?;
         record.put(&run.trial);
+        let note = note_of(&run.trial);
         let line = serde_json::to_string(record).map_err(|error| failed(error.to_string()))?;
         if let Some(story) = story {
             let thumbnail = eyes.frame().map(RgbdFrame::thumbnail_png);
             self.outputs.tell(Told { line: line.clone(), run: run.clone(), picture: thumbnail, story });
         }
-        let Some(recorder) = recorder else { return Ok(()) };
+        let Some(recorder) = recorder else { return Ok(note) };
         recorder
             .finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line)
-            .map_err(|error| failed(error.to_string()))
+            .map_err(|error| failed(error.to_string()))?;
+        Ok(note)
     }
 }
 
@@ -274,7 +276,7 @@ impl Stage for RealDriver {
         self.busy.set(true);
         let driven = self.drive(record, &plan, &id);
         self.busy.set(false);
-        driven.map(|()| Note::Done)
+        driven
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {

@@ -122,8 +122,10 @@ impl<R: Read> LogReader<R> {
         }
         if is_wanted {
             self.whole = false;
-            let what =
-                format!("a record of {length} bytes is left out: no more than {} are read at once", MCAP_RECORD_BYTES.value);
+            let what = format!(
+                "a record of {length} bytes is left out: no more than {} are read at once",
+                MCAP_RECORD_BYTES.value
+            );
             self.ready.push_back(Err(Loss::at(begins, what)));
         }
     }

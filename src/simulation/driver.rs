@@ -2,7 +2,7 @@
 
 use super::missing::missing;
 use super::{Home, TrialSettings, run, stream_of};
-use crate::behavior::{Run, Several, Watcher, plan_of, row_of, shade_of, text_of};
+use crate::behavior::{Run, Several, Watcher, note_of, plan_of, row_of, shade_of, text_of};
 use crate::frame::RgbdFrame;
 use crate::record::{Note, Plan, Record, Row, Shade, Stage, StageError};
 use crate::recording::{About, LogError, Outputs, Recorder, Told};
@@ -21,7 +21,7 @@ pub struct Driver {
 }
 
 impl Driver {
-    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
+    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<Note, StageError> {
         let failed = |error: LogError| StageError::new(error.to_string());
         let truth = self.home.pieces();
         let about = About {
@@ -50,13 +50,15 @@ impl Driver {
         let png = picture.as_ref().map(RgbdFrame::color_png);
         self.outputs.leave((&self.home.map, &truth), &mut run, png.as_deref(), record, id)?;
         record.put(&run.trial);
+        let note = note_of(&run.trial);
         let line = || serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()));
         if let Some(story) = story {
             let thumbnail = picture.as_ref().map(RgbdFrame::thumbnail_png);
             self.outputs.tell(Told { line: line()?, run: run.clone(), picture: thumbnail, story });
         }
-        let (Some(recorder), Some(png)) = (recorder, png) else { return Ok(()) };
-        recorder.finish(run.trial.duration_s.0, png, &line()?).map_err(failed)
+        let (Some(recorder), Some(png)) = (recorder, png) else { return Ok(note) };
+        recorder.finish(run.trial.duration_s.0, png, &line()?).map_err(failed)?;
+        Ok(note)
     }
 
     /// Runs a plan, unless the home does not have what it looks for.
@@ -70,8 +72,7 @@ impl Stage for Driver {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
         let plan = plan_of(record, &self.home.map)?;
         let id = record.id().unwrap_or_else(|| "record".to_string());
-        self.drive(record, &plan, &id)?;
-        Ok(Note::Done)
+        self.drive(record, &plan, &id)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {

@@ -44,7 +44,14 @@ pub struct Limits {
 impl Default for Limits {
     fn default() -> Self {
         let turn = p3dx::BODY.turn_rad_s;
-        Self { speed: p3dx::BODY.speed_m_s, acceleration: 0.3, braking: 0.3, turn, turn_acceleration: turn, turn_braking: turn }
+        Self {
+            speed: p3dx::BODY.speed_m_s,
+            acceleration: 0.3,
+            braking: 0.3,
+            turn,
+            turn_acceleration: turn,
+            turn_braking: turn,
+        }
     }
 }
 

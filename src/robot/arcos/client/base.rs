@@ -208,6 +208,14 @@ impl Drop for ArcosBase {
 }
 
 impl MobileBase for ArcosBase {
+    fn age_s(&self) -> f64 {
+        self.report.age_s()
+    }
+
+    fn dead_time_s(&self) -> f64 {
+        self.report.dead_time.as_secs_f64()
+    }
+
     fn body(&self) -> Body {
         self.body
     }
