@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::frame_error::FrameError;
 use super::picture_files::{load_color, load_depth};
 use super::upright::{CAMERA_HEIGHTS_M, CAMERA_TILTS_DEG, Depths, NoPose, Told, camera_over_floor};
 use crate::frame::{Intrinsics, RgbdFrame, steady};
@@ -51,20 +52,6 @@ pub struct FrameFiles {
     /// How far down it looked, where that is known and `T_world_cam` is not, degrees.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera_tilt: Option<f64>,
-}
-
-/// Why a frame cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum FrameError {
-    /// The file cannot be read.
-    #[error("{0}: {1}")]
-    Unreadable(String, String),
-    /// The pictures and the record do not belong together.
-    #[error("{0} is {1} × {2} pixels, {3} {4} × {5}; depth must be registered to the colour picture")]
-    Sizes(String, usize, usize, &'static str, usize, usize),
-    /// The numbers cannot be.
-    #[error("{0}")]
-    Wrong(String),
 }
 
 impl FrameFiles {

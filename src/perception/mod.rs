@@ -11,6 +11,7 @@
 //! The executive sees only [`Eyes`]. What it sees comes from pictures only: nothing here can name the scene, and the
 //! eyes of the simulated robot are in `simulation::eyes`.
 
+mod answer;
 mod beyond;
 mod describe;
 pub(crate) mod detector;
@@ -19,6 +20,7 @@ pub(crate) mod floor;
 pub(crate) mod floor_grid;
 pub(crate) mod footprint;
 pub(crate) mod forest;
+mod frame_error;
 mod frame_files;
 pub(crate) mod front;
 mod fusion;
@@ -26,8 +28,10 @@ pub(crate) mod items;
 pub(crate) mod joining;
 pub(crate) mod measures;
 pub(crate) mod model;
+mod network;
 pub mod objects;
 mod overlay;
+pub(crate) mod parts;
 pub(crate) mod patches;
 mod picture_files;
 pub(crate) mod points;
@@ -40,9 +44,11 @@ pub(crate) mod tabletop;
 pub(crate) mod upright;
 pub(crate) mod walls;
 
+pub use answer::{Answer, Mask, PictureBox};
 pub use detector::{Detector, furniture_chance};
 pub use external::{ExternalDetector, ExternalError};
-pub use frame_files::{FrameError, FrameFiles, check};
+pub use frame_error::FrameError;
+pub use frame_files::{FrameFiles, check};
 pub use fusion::FurnitureMap;
 pub use model::Model;
 pub use overlay::overlay;

@@ -13,6 +13,7 @@ use super::spaces::{Spaces, folder, kinship};
 use super::{Loss, TimedFrame};
 use crate::frame::{Intrinsics, Picture, RgbdFrame};
 use crate::geometry::Pose;
+use crate::limits::MCAP_WAITING;
 use crate::perception::{Depths, Told};
 
 /// Colour and depth further apart than this are not one frame, nanoseconds.
@@ -23,8 +24,6 @@ const PATIENCE_NS: u64 = 1_000_000_000;
 const CLOCK_MOVED_NS: u64 = 1_000_000_000;
 /// What is kept of the past, nanoseconds.
 const MEMORY_NS: u64 = 5_000_000_000;
-/// No more pictures are kept waiting than this.
-const MOST_WAITING: usize = 64;
 
 /// Everything that has come and may still become part of a frame.
 pub(super) struct Assembly {
@@ -124,7 +123,7 @@ impl Assembly {
         let oldest = self.newest_stamp_ns.saturating_sub(MEMORY_NS);
         self.spaces.forget_before(oldest);
         self.mount.forget_before(oldest);
-        while self.colors.len() > MOST_WAITING {
+        while self.colors.len() > MCAP_WAITING.count() {
             self.colors.pop_first();
         }
     }
@@ -144,7 +143,7 @@ impl Assembly {
     /// Gives out the frames that are complete, or have waited long enough at `now_ns` of the log's clock.
     fn give_out(&mut self, now_ns: u64, items: &mut Items) {
         while let Some(first) = self.depths.first() {
-            let waited = now_ns.saturating_sub(first.log_ns) > PATIENCE_NS || self.depths.len() > MOST_WAITING;
+            let waited = now_ns.saturating_sub(first.log_ns) > PATIENCE_NS || self.depths.len() > MCAP_WAITING.count();
             if !waited && !self.is_complete(first) {
                 return;
             }

@@ -12,10 +12,10 @@ use mcap::read::{ChannelAccumulator, parse_record};
 use mcap::records::{Record, op};
 
 use super::chunk::unpack;
+use super::link::link;
 use super::{LogError, Loss};
+use crate::limits::MCAP_RECORD_BYTES;
 
-/// No longer record is taken into memory, bytes.
-pub(super) const LONGEST_RECORD: u64 = 1 << 30;
 /// A length beyond this is damage, bytes.
 const IMPOSSIBLE: u64 = 1 << 42;
 
@@ -86,7 +86,7 @@ impl<R: Read> LogReader<R> {
             return self.lose(Loss::at(begins, "damaged: a record with an impossible length; what follows is lost"));
         }
         let is_wanted = WANTED.contains(&head[0]);
-        if !is_wanted || length > LONGEST_RECORD {
+        if !is_wanted || length > MCAP_RECORD_BYTES.value {
             return self.pass_over(begins, head, length, is_wanted);
         }
         let mut body = Vec::new();
@@ -122,8 +122,10 @@ impl<R: Read> LogReader<R> {
         }
         if is_wanted {
             self.whole = false;
-            let what =
-                format!("a record of {length} bytes is left out: no more than {LONGEST_RECORD} are read at once");
+            let what = format!(
+                "a record of {length} bytes is left out: no more than {} are read at once",
+                MCAP_RECORD_BYTES.value
+            );
             self.ready.push_back(Err(Loss::at(begins, what)));
         }
     }
@@ -245,29 +247,4 @@ fn salvaged(begins: u64, length: u64, body: &[u8], links: &mut ChannelAccumulato
     let messages = unpack(length, body, links, false).messages;
     let what = format!("damaged chunk: {} messages salvaged, which no checksum vouches for", messages.len());
     (messages, Loss::at(begins, what))
-}
-
-/// Takes a schema, channel or message record; a message comes out with its channel.
-pub(super) fn link(
-    opcode: u8,
-    body: &[u8],
-    links: &mut ChannelAccumulator<'static>,
-) -> mcap::McapResult<Option<Message<'static>>> {
-    match parse_record(opcode, body)? {
-        Record::Schema { header, data } => links.add_schema_from_slice(header, &data)?,
-        Record::Channel(channel) => links.add_channel(channel)?,
-        Record::Message { header, data } => {
-            let unknown = mcap::McapError::UnknownChannel(header.sequence, header.channel_id);
-            let channel = links.get(header.channel_id).ok_or(unknown)?;
-            return Ok(Some(Message {
-                channel,
-                sequence: header.sequence,
-                log_time: header.log_time,
-                publish_time: header.publish_time,
-                data: data.into_owned().into(),
-            }));
-        }
-        _ => {}
-    }
-    Ok(None)
 }

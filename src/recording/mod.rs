@@ -14,6 +14,7 @@ mod follow;
 mod frame_reader;
 mod frame_writer;
 mod lens;
+mod link;
 #[cfg_attr(not(feature = "live"), path = "no_live.rs")]
 mod live;
 mod log_reader;

@@ -10,8 +10,10 @@ use mcap::records::op;
 
 use super::Loss;
 use super::chunk::unpack;
-use super::log_reader::{LONGEST_RECORD, link, messages_of_chunk};
+use super::link::link;
+use super::log_reader::messages_of_chunk;
 use super::survey::{Entry, Survey};
+use crate::limits::MCAP_RECORD_BYTES;
 
 /// Reads each chunk when its time has come; only chunks that overlap in time are held together.
 pub struct SortedLog {
@@ -68,7 +70,7 @@ impl SortedLog {
         let mut head = [0; 9];
         self.file.read_exact(&mut head)?;
         let length = u64::from_le_bytes(std::array::from_fn(|i| head[1 + i]));
-        if length > LONGEST_RECORD {
+        if length > MCAP_RECORD_BYTES.value {
             return Err(io::Error::other(format!("a record of {length} bytes is too long to be read")));
         }
         let mut body = Vec::new();

@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 use nalgebra::Isometry3;
 
 use super::sensed::Transform;
+use crate::limits::TRANSFORM_CHAIN;
 
 /// Beyond the first and last sample a transform is believed for this long, nanoseconds.
 const TOLERANCE_NS: u64 = 200_000_000;
-/// No chain of frames is longer than this: a longer one is a loop.
-const LONGEST_CHAIN: usize = 64;
 /// Frames that stand for the world: a chain ends there.
 pub(super) const WORLDS: [&str; 2] = ["map", "world"];
 
@@ -120,7 +119,7 @@ impl Trees<'_> {
     /// Whether nothing can still come that bears on where a frame was at that time.
     pub(super) fn is_settled(&self, frame: &str, stamp_ns: u64) -> bool {
         let mut frame = frame;
-        for _ in 0..LONGEST_CHAIN {
+        for _ in 0..TRANSFORM_CHAIN.count() {
             let Some(track) = self.track(frame) else { return WORLDS.contains(&frame) };
             let newest = track.samples.last_key_value().map_or(0, |(&stamp, _)| stamp);
             if !track.fixed && newest < stamp_ns {
@@ -135,7 +134,7 @@ impl Trees<'_> {
     pub(super) fn place(&self, frame: &str, stamp_ns: u64) -> Result<Placed, Unplaced> {
         let (mut at, mut placed) = (frame.to_string(), Isometry3::identity());
         let mut chain = vec![at.clone()];
-        while chain.len() <= LONGEST_CHAIN && !WORLDS.contains(&at.as_str()) {
+        while chain.len() <= TRANSFORM_CHAIN.count() && !WORLDS.contains(&at.as_str()) {
             let Some(track) = self.track(&at) else { break };
             let parent_from_child =
                 track.at(stamp_ns).map_err(|off_ns| Unplaced::OtherTime { frame: at.clone(), off_ns })?;

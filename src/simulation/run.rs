@@ -37,6 +37,7 @@ pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: 
         spl: verdict.spl.map(Into::into),
         collisions: truth.collisions,
         min_clearance_m: Some(truth.min_clearance_m.into()),
+        delivered: report.delivered,
         actions: report.journal.actions,
         path,
     };
@@ -45,7 +46,8 @@ pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: 
 
 /// What the robot took for the object need not be it: found is what truly is recognisable in the last picture.
 fn confirm(report: &mut Report, home: &Home, object: Option<&str>, pose: Pose) {
-    if report.outcome == Outcome::Found && !is_recognisable(home, object, pose) {
+    // What was carried away is in no last picture.
+    if report.outcome == Outcome::Found && report.delivered.is_empty() && !is_recognisable(home, object, pose) {
         report.outcome = Outcome::NotFound;
         report.why = format!("mistaken: {}", report.why);
     }

@@ -1,5 +1,7 @@
 //! How a trial is run: what the executive may do, what eyes it has, and its random stream.
 
+use serde::{Deserialize, Serialize};
+
 use super::Noise;
 use super::camera::Kinect;
 use crate::behavior::Options;
@@ -20,7 +22,8 @@ pub struct Settings {
 }
 
 /// What the robot's eyes report.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
 pub enum Perception {
     /// Ideal detections of what a camera would show
     #[default]
@@ -34,7 +37,8 @@ pub enum Perception {
 }
 
 /// How imperfect the simulated robot's wheels, sonars, compass and start are, against what its world says.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
 pub enum NoiseLevel {
     /// A robot without any error
     Off,

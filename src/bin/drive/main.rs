@@ -65,10 +65,12 @@ impl Arguments {
     /// With the options of the log that is replayed, where none were given.
     fn with_recorded_options(self, reporter: &Reporter) -> Result<Self, Failure> {
         // What comes through a pipe is read once.
-        let Some(log) = self.log.from.as_ref().filter(|log| log.is_file()) else { return Ok(self) };
-        let Some(replay) = replay::replay(log)? else { return Ok(self) };
-        replay.remarks.iter().for_each(|remark| reporter.remark(remark));
-        Ok(replay.arguments)
+        let Some(log) = self.log.from.clone().filter(|log| log.is_file()) else { return Ok(self) };
+        // A log may say how a robot is simulated, never how a real one is driven.
+        if self.robot.serves() || self.robot.is_real() {
+            return Ok(self);
+        }
+        self.as_recorded_in(&log, reporter)
     }
 
     fn drive(self, reporter: Reporter) -> Result<Exit, Failure> {
@@ -86,8 +88,9 @@ impl Arguments {
             noise: self.noise,
             seed: self.common.seed,
         };
+        let recorded = self.trial_options().line();
         let watched = self.outputs.is_live();
-        let outputs = self.outputs.outputs(self.common.force, replay::recorded_line()?, &reporter)?;
+        let outputs = self.outputs.outputs(self.common.force, recorded, &reporter)?;
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
         // Nobody watches two trials at once.
         let common = if watched { Common { jobs: 1, ..self.common } } else { self.common };
@@ -99,7 +102,7 @@ impl Arguments {
     fn drive_real(self, reporter: Reporter) -> Result<Exit, Failure> {
         let map = self.home.rooms()?;
         let options = self.executive.options();
-        let outputs = self.outputs.outputs(self.common.force, replay::recorded_line()?, &reporter)?;
+        let outputs = self.outputs.outputs(self.common.force, String::new(), &reporter)?;
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
         // One robot, one plan at a time.
         let common = Common { jobs: 1, ..self.common };

@@ -6,11 +6,9 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::Args;
-use spatial_fetch::cli::{Failure, Reporter};
+use spatial_fetch::cli::{Failure, Reporter, within};
 use spatial_fetch::recording::Live;
 use spatial_fetch::recording::Outputs;
-
-use spatial_fetch::cli::within;
 
 #[derive(Args)]
 #[command(next_help_heading = "Outputs")]

@@ -6,10 +6,11 @@ use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 use spatial_fetch::behavior::Options;
-use spatial_fetch::cli::{Exit, Failure, Reporter, on_interrupt};
+use spatial_fetch::cli::{Exit, Failure, Reporter, on_interrupt, within};
 use spatial_fetch::field::{NoEyes, RealDriver, StreamEyes, Tell};
 use spatial_fetch::perception::Eyes;
 use spatial_fetch::recording::Outputs;
+use spatial_fetch::robot::RealBase;
 use spatial_fetch::robot::arcos::client::{ArcosBase, Settings};
 use spatial_fetch::robot::arcos::line::{Address, Line};
 use spatial_fetch::robot::arcos::parameters::Parameters;
@@ -17,8 +18,6 @@ use spatial_fetch::robot::p3dx::SonarArray;
 use spatial_fetch::simulation::arcos::DryLine;
 use spatial_fetch::simulation::arcos::{ServeAddress, ServerSettings};
 use spatial_fetch::simulation::{Home, Served};
-
-use spatial_fetch::cli::within;
 
 /// The models whose scales are known.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -124,10 +123,10 @@ impl Arguments {
         reporter: Reporter,
     ) -> Result<RealDriver, Failure> {
         let start = map.start;
-        let base = ArcosBase::connect(self.line()?, self.settings(), start)
-            .map_err(|error| Failure::Failed(error.to_string()))?;
+        let base = ArcosBase::connect(self.line()?, self.settings(), start);
+        let base: Box<dyn RealBase> = Box::new(base.map_err(|error| Failure::Failed(error.to_string()))?);
         let tell: Tell = Arc::new(move |text: &str| reporter.remark(text));
-        let eyes = self.eyes(&map, &base, &tell)?;
+        let eyes = self.eyes(&map, base.as_ref(), &tell)?;
         let driver = RealDriver::new(map, options, outputs, base, eyes, tell);
         let interrupter = driver.interrupter();
         on_interrupt(move || interrupter.stop());
@@ -137,10 +136,10 @@ impl Arguments {
     fn eyes(
         &self,
         map: &spatial_fetch::map::RoomMap,
-        base: &ArcosBase,
+        base: &dyn RealBase,
         tell: &Tell,
     ) -> Result<Box<dyn Eyes + Send>, Failure> {
-        let (map, carrier, tell) = (map.clone(), Arc::new(base.stopper()), Arc::clone(tell));
+        let (map, carrier, tell) = (map.clone(), base.remote(), Arc::clone(tell));
         let eyes = match self.camera.to_str() {
             Some("none") => return Ok(Box::new(NoEyes)),
             #[cfg(feature = "kinect")]

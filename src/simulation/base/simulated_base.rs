@@ -8,7 +8,7 @@ use super::dice::Dice;
 use super::ears::Ears;
 use super::wheels::{Wheels, moved};
 use crate::geometry::{Pose, angle_between, wrap_angle};
-use crate::robot::{MobileBase, RobotError, SonarReading, Status, p3dx};
+use crate::robot::{Body, MobileBase, RobotError, SonarReading, Status, p3dx};
 use crate::simulation::Noise;
 
 /// Integration step, seconds.
@@ -160,7 +160,7 @@ impl SimulatedBase {
         let clearance = if self.known_clear_m > of_interest + 1e-9 {
             self.known_clear_m
         } else {
-            self.obstacles.clearance(&p3dx::outline(truth.pose), truth.pose.position(), CLEARANCE_REACH_M)
+            self.obstacles.clearance(&p3dx::BODY.outline(truth.pose), truth.pose.position(), CLEARANCE_REACH_M)
         };
         self.known_clear_m = clearance;
         truth.min_clearance_m = truth.min_clearance_m.min(clearance);
@@ -186,6 +186,10 @@ fn toward(now: f64, wanted: f64, accelerate: f64, brake: f64) -> f64 {
 }
 
 impl MobileBase for SimulatedBase {
+    fn body(&self) -> Body {
+        p3dx::BODY
+    }
+
     fn pose(&self) -> Pose {
         self.odometry
     }
