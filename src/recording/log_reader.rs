@@ -11,7 +11,7 @@ use mcap::Message;
 use mcap::read::{ChannelAccumulator, parse_record};
 use mcap::records::{Record, op};
 
-use super::chunk::unpack;
+use super::chunk::{Messages, unpack};
 use super::{LogError, Loss};
 use crate::limits::MCAP_RECORD_BYTES;
 
@@ -26,6 +26,8 @@ pub struct LogReader<R> {
     at_byte: u64,
     checksum: crc32fast::Hasher,
     links: ChannelAccumulator<'static>,
+    /// What is left of the last chunk; it comes before what is ready.
+    chunk: Messages,
     ready: VecDeque<Result<Message<'static>, Loss>>,
     whole: bool,
     state: State,
@@ -58,6 +60,7 @@ impl<R: Read> LogReader<R> {
             at_byte: magic.len() as u64,
             checksum,
             links: ChannelAccumulator::default(),
+            chunk: Messages::default(),
             ready: VecDeque::new(),
             whole: true,
             state: State::Data,
@@ -112,7 +115,8 @@ impl<R: Read> LogReader<R> {
     fn take_chunk(&mut self, begins: u64, body: &[u8]) {
         let unpacked = unpack(body.len() as u64, body, &mut self.links, true);
         let Some(damage) = unpacked.damage else {
-            return self.ready.extend(unpacked.messages.into_iter().map(Ok));
+            self.chunk = unpacked.messages;
+            return;
         };
         self.whole = false;
         if self.recover {
@@ -126,8 +130,8 @@ impl<R: Read> LogReader<R> {
     /// Takes what can be unpacked of a damaged or cut chunk.
     fn salvage(&mut self, begins: u64, length: u64, body: &[u8]) {
         let unpacked = unpack(length, body, &mut self.links, false);
-        let count = unpacked.messages.len();
-        self.ready.extend(unpacked.messages.into_iter().map(Ok));
+        let count = unpacked.messages.count();
+        self.chunk = unpacked.messages;
         let what = format!("damaged chunk: {count} messages salvaged, which no checksum vouches for");
         self.ready.push_back(Err(Loss::at(begins, what)));
     }
@@ -188,10 +192,15 @@ impl<R: Read> Iterator for LogReader<R> {
     type Item = Result<Message<'static>, Loss>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        while self.ready.is_empty() && self.state != State::Ended {
+        loop {
+            if let Some(message) = self.chunk.next(&mut self.links) {
+                return Some(Ok(message));
+            }
+            if !self.ready.is_empty() || self.state == State::Ended {
+                return self.ready.pop_front();
+            }
             self.advance();
         }
-        self.ready.pop_front()
     }
 }
 
