@@ -227,9 +227,9 @@ pub const TREE_DEPTH: Limit = Limit {
 /// Bytes of one record of an MCAP log.
 pub const MCAP_RECORD_BYTES: Limit = Limit {
     name: "a record of an MCAP log",
-    value: 1 << 28,
+    value: 1 << 30,
     unit: "bytes",
-    reason: "a length beyond it is damage",
+    reason: "a longer one is left out and said: it would have to stand in memory whole",
     lifted_by: None,
 };
 

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Pose, Vec2};
 use crate::map::RoomMap;
-use crate::record::{Plan, Record, Rounded, StageError, Trial};
+use crate::record::{Plan, Record, Rounded, StageError, Trial, doubts_of};
 
 /// A trial with what its files want to know beside the record.
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ pub struct Run {
 
 /// The plan of a record, made for this home.
 pub fn plan_of(record: &Record, map: &RoomMap) -> Result<Plan, StageError> {
-    let plan: Plan = record.require("plan", "pipe the record through `plan` first")?;
+    let plan: Plan = record.require_part("pipe the record through `plan` first")?;
     if plan.map != map.name {
         let (plan, home) = (&plan.map, &map.name);
         let message = format!("`plan`: made for the map `{plan}`, the robot is in `{home}`; give both the same --map");
@@ -28,7 +28,7 @@ pub fn plan_of(record: &Record, map: &RoomMap) -> Result<Plan, StageError> {
 
 /// A trial for people.
 pub fn text_of(record: &Record) -> Result<String, StageError> {
-    let trial: Trial = record.require("trial", "it is what `drive` adds")?;
+    let trial: Trial = record.require_part("it is what `drive` adds")?;
     let mut lines: Vec<String> = record.get::<String>("text")?.into_iter().collect();
     for action in &trial.actions {
         let (start, end) = (action.start_s.0, action.end_s.0);
@@ -38,6 +38,11 @@ pub fn text_of(record: &Record) -> Result<String, StageError> {
     let outcome = format!("{:?}", trial.outcome).to_lowercase();
     let (metres, seconds) = (trial.distance_m.0, trial.duration_s.0);
     lines.push(format!("{outcome}: {} ({metres:.1} m, {seconds:.0} s, {} collisions)", trial.why, trial.collisions));
+    lines.extend(trial.delivered.iter().map(|delivery| {
+        let what = delivery.objects.join(" and ").replace('_', " ");
+        format!("delivered: {what} {}", delivery.to.phrase())
+    }));
+    lines.extend(doubts_of(record)?.into_iter().map(|doubt| format!("  !  {doubt}")));
     Ok(lines.join("\n"))
 }
 

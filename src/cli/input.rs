@@ -6,26 +6,11 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{Failure, Source};
+use super::{Failure, Line, Source};
 use crate::limits::LINE_BYTES;
 
 /// Large enough that a batch keeps several threads busy, small enough to stay in cache.
 const BUFFER_BYTES: usize = 1 << 18;
-
-/// One line of input and where it came from.
-#[derive(Clone, Debug)]
-pub struct Line {
-    /// File name, or `<stdin>`.
-    pub file: Arc<str>,
-    /// 1-based.
-    pub number: usize,
-    /// Counted over all files, 1-based: the id of a plain line.
-    pub ordinal: usize,
-    /// The bytes without the line's end.
-    pub bytes: Vec<u8>,
-    /// Whether the line's end was there; a last line without one may have been cut.
-    pub terminated: bool,
-}
 
 /// The text of a file.
 pub fn read_file(path: &Path) -> Result<String, Failure> {

@@ -20,6 +20,8 @@
 //! assert_eq!(histogram.values()[2], 0.0);
 //! ```
 
+mod between;
+mod boxes;
 mod degree;
 mod describe;
 mod frame;
@@ -31,6 +33,7 @@ mod main_direction;
 mod mask;
 mod name;
 pub mod polygon;
+mod quadrature;
 pub mod raster;
 mod relation;
 mod rose;
@@ -41,6 +44,7 @@ mod surround;
 mod validity;
 mod wording;
 
+pub use between::between;
 pub use degree::{DegreeOfTruth, degree_of_truth};
 pub use describe::Description;
 pub use frame::{Frame, Words};
@@ -52,5 +56,5 @@ pub use relation::Relation;
 pub use shape::Shape;
 pub use shape_error::ShapeError;
 pub use stage::{Describer, Pictures};
-pub use surround::{between, surround};
+pub use surround::surround;
 pub use wording::{Assessment, Closeness};

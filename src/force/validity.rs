@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::ShapeError;
-use super::gap::boxes_meet;
+use super::boxes::boxes_meet;
 use crate::geometry::Vec2;
 
 /// A ring: its corners, the part it belongs to, and whether it is a hole of it.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::frame_files::FrameError;
+use super::frame_error::FrameError;
 use crate::frame::{Picture, decode_color, decode_depth, picture_size};
 use crate::limits::PICTURE_FILE_BYTES;
 

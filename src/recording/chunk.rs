@@ -9,7 +9,7 @@ use mcap::read::{ChannelAccumulator, parse_record};
 use mcap::records::{Record, op};
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
-use super::log_reader::link;
+use super::link::link;
 use crate::limits::{MCAP_CHUNK_BYTES, MCAP_CHUNK_RATIO, MCAP_RECORD_BYTES};
 
 /// What a chunk held.
@@ -36,9 +36,14 @@ impl Messages {
 
     /// The next message.
     pub(super) fn next(&mut self, links: &mut ChannelAccumulator<'static>) -> Option<Message<'static>> {
-        // What was linked when the chunk was unpacked is linked again.
         let (_, place) = self.order.pop_front()?;
-        link(op::MESSAGE, &self.bodies[place], links).ok().flatten()
+        // Its channel was there when the chunk was unpacked, so it is now.
+        link(op::MESSAGE, &self.bodies[place], links).ok().flatten().or_else(|| self.next(links))
+    }
+
+    /// When the next message was logged, nanoseconds.
+    pub(super) fn next_ns(&self) -> Option<u64> {
+        self.order.front().map(|&(log_time, _)| log_time)
     }
 
     fn push(&mut self, body: &[u8], links: &ChannelAccumulator<'static>) -> mcap::McapResult<()> {

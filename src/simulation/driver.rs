@@ -41,7 +41,7 @@ impl Driver {
         let wants_picture = recorder.is_some() || self.outputs.picture.is_some();
         let picture = wants_picture.then(|| self.home.take_picture(run.final_pose).color_png());
         self.outputs.leave((&self.home.map, &truth), &mut run, picture.as_deref(), record, id)?;
-        record.set("trial", &run.trial);
+        record.put(&run.trial);
         let (Some(recorder), Some(picture)) = (recorder, picture) else { return Ok(()) };
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
         recorder.finish(run.trial.duration_s.0, picture, &line).map_err(failed)

@@ -6,13 +6,12 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::Args;
-use spatial_fetch::cli::{Failure, Reporter};
+use spatial_fetch::cli::{Failure, Reporter, within};
 use spatial_fetch::recording::Live;
 use spatial_fetch::recording::Outputs;
 
-use crate::number::within;
-
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Outputs")]
 pub struct Arguments {
     /// Draw the way through the rooms; {id} stands for the record's id

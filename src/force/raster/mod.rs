@@ -10,6 +10,7 @@ mod corners;
 mod correlation;
 mod fourier;
 mod image;
+mod nodes;
 mod piece;
 mod ray;
 
