@@ -226,11 +226,7 @@ impl Pilot<'_> {
 }
 
 /// The places well inside an outline where the robot can turn.
-fn free_inside<'a>(
-    grid: &'a ClearanceGrid,
-    outline: &'a Polygon,
-    to_turn: f64,
-) -> impl Iterator<Item = Vec2> + 'a {
+fn free_inside<'a>(grid: &'a ClearanceGrid, outline: &'a Polygon, to_turn: f64) -> impl Iterator<Item = Vec2> + 'a {
     let (low, high) = outline.bounds();
     let (from, to) = (grid.cell(low), grid.cell(high));
     let cells = (from.0..=to.0).flat_map(move |x| (from.1..=to.1).map(move |y| (x, y)));

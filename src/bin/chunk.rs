@@ -54,7 +54,7 @@ impl Program for Arguments {
         let lexicon = self.lexicon.as_deref().map(lexicon_with).transpose();
         let lexicon = lexicon.map_err(|error| Failure::Failed(error.to_string()))?.map(Arc::new);
         let chunker = Chunker { lexicon, explain: self.explain };
-        let mut lines = self.log.lines(&self.common.files, "/fetch/input")?;
+        let mut lines = self.log.lines(&self.common, "/fetch/input")?;
         cli::run_filter_on(Self::NAME, &self.common, lines.as_mut(), Intake::RecordsOrText, &chunker)
     }
 }

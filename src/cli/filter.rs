@@ -5,6 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use rayon::prelude::*;
 
 use super::{Common, Diagnostic, Exit, Failure, Format, Inputs, Line, Progress, Reporter, Source, open_output};
+use crate::escape::for_terminal;
 use crate::record::{Note, Record, Stage, StageError};
 
 /// Enough lines to keep the cores busy, few enough to answer soon.
@@ -31,7 +32,7 @@ pub(super) struct Outcome {
 
 /// Runs `stage` over all lines of the files, or of standard input.
 pub fn run_filter(program: &'static str, common: &Common, intake: Intake, stage: &dyn Stage) -> Result<Exit, Failure> {
-    run_filter_on(program, common, &mut Inputs::new(&common.files), intake, stage)
+    run_filter_on(program, common, &mut Inputs::new(&common.files, common.keep_going), intake, stage)
 }
 
 /// Runs `stage` over all lines of `lines`.
@@ -128,9 +129,9 @@ pub fn record_of(line: &Line, intake: Intake) -> Result<Option<Record<'_>>, Diag
 fn parse<'line>(line: &Line, text: &'line str, intake: Intake) -> Result<Record<'line>, Diagnostic> {
     let looks_like_json = text.trim_start().starts_with(['{', '[']);
     if !looks_like_json && intake == Intake::RecordsOrText {
-        return Ok(Record::from_text(&line.ordinal.to_string(), text.trim()));
+        return Ok(Record::from_text(&line.ordinal.to_string(), text.trim()).at(line.ordinal));
     }
-    Record::parse(text).map_err(|error| {
+    Record::parse(text).map(|record| record.at(line.ordinal)).map_err(|error| {
         let mut message = crate::record::message_without_position(&error);
         if error.is_eof() && !line.terminated {
             message.push_str("; the input ends in the middle of this record");
@@ -155,7 +156,7 @@ pub(super) fn finish(
     let result = catch_unwind(AssertUnwindSafe(|| run(&mut record)))
         .unwrap_or_else(|_| Err(StageError::new("internal error, please report it with this record")));
     let text = match (&result, format) {
-        (Ok(_), Format::Text) => stage.text(&record),
+        (Ok(_), Format::Text) => stage.text(&record).map(|text| for_terminal(&text).into_owned()),
         (Err(_), Format::Text) => Ok(String::new()),
         _ => serde_json::to_string(&record).map_err(|e| StageError::new(e.to_string())),
     };

@@ -28,16 +28,18 @@ pub enum FrameInput {
 
 impl FrameInput {
     /// Looks at the first bytes: an MCAP log is read as one, wherever it comes from.
-    pub fn open(files: &[PathBuf], options: &FromLog) -> Result<Self, Failure> {
-        let logs = |paths: Vec<PathBuf>| FrameLogs::new(paths, options.clone());
+    pub fn open(files: &[PathBuf], options: &FromLog, keep_going: bool) -> Result<Self, Failure> {
+        let logs = |paths: Vec<PathBuf>| FrameLogs::new(paths, options.clone(), keep_going);
         match (&options.from, files) {
             (Some(path), _) => Ok(Self::Logs(Box::new(logs(vec![path.clone()])))),
             (None, [first, ..]) if first != Path::new("-") => {
-                let is_log = File::open(first).is_ok_and(|file| is_regular(&file) && begins_as_log(file).0);
-                if is_log {
+                let is_log =
+                    |path: &PathBuf| File::open(path).is_ok_and(|file| is_regular(&file) && begins_as_log(file).0);
+                // One that is missing does not say what the others are.
+                if is_log(first) || keep_going && !first.exists() && files.iter().any(is_log) {
                     Ok(Self::Logs(Box::new(logs(files.to_vec()))))
                 } else {
-                    Ok(Self::Lines(Inputs::new(files)))
+                    Ok(Self::Lines(Inputs::new(files, keep_going)))
                 }
             }
             _ => {
@@ -70,6 +72,8 @@ fn begins_as_log(mut source: impl Read) -> (bool, Vec<u8>) {
 pub struct FrameLogs {
     waiting: VecDeque<PathBuf>,
     options: FromLog,
+    /// Whether a log that cannot be read is told and passed over.
+    keep_going: bool,
     current: Option<Current>,
     count: usize,
     lost: Vec<Diagnostic>,
@@ -107,8 +111,8 @@ impl FrameItem {
 }
 
 impl FrameLogs {
-    fn new(paths: Vec<PathBuf>, options: FromLog) -> Self {
-        Self { waiting: paths.into(), options, current: None, count: 0, lost: Vec::new() }
+    fn new(paths: Vec<PathBuf>, options: FromLog, keep_going: bool) -> Self {
+        Self { waiting: paths.into(), options, keep_going, current: None, count: 0, lost: Vec::new() }
     }
 
     fn begin(&mut self, bytes: Bytes, name: String, is_pipe: bool) -> Result<(), Failure> {
@@ -119,12 +123,21 @@ impl FrameLogs {
         Ok(())
     }
 
+    fn left_out(&self, path: &Path, what: &str) -> Diagnostic {
+        let place = path.display().to_string();
+        let what = what.strip_prefix(&format!("{place}: ")).unwrap_or(what);
+        Diagnostic { message: format!("{what}; its frames are left out"), place, id: None }
+    }
+
     fn next_frame(&mut self) -> Result<Option<FrameItem>, Failure> {
         loop {
             let Some(current) = &mut self.current else {
                 let Some(path) = self.waiting.pop_front() else { return Ok(None) };
-                let (bytes, name, is_pipe) = open_log(&path)?;
-                self.begin(bytes, name, is_pipe)?;
+                let begun = open_log(&path).and_then(|(bytes, name, is_pipe)| self.begin(bytes, name, is_pipe));
+                match begun {
+                    Err(Failure::Failed(what)) if self.keep_going => self.lost.push(self.left_out(&path, &what)),
+                    begun => begun?,
+                }
                 continue;
             };
             match current.frames.next() {

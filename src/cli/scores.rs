@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::{Common, Exit, Failure, Format, Inputs, Source, open_output, read_file};
+use crate::escape::for_terminal;
 use crate::evaluation::robustness::{Robustness, robustness_tables};
 use crate::evaluation::{Gold, Scores, read_gold, text_tables, with_texts};
 use crate::record::Record;
@@ -61,7 +62,7 @@ pub fn find_description(files: &[PathBuf], id: Option<&str>) -> Result<(String, 
 /// Writes a report as JSON, or as the text that `table` draws.
 pub fn write_report(common: &Common, report: &impl Serialize, table: impl FnOnce() -> String) -> Result<(), Failure> {
     let written = match common.format {
-        Format::Text => table(),
+        Format::Text => for_terminal(&table()).into_owned(),
         Format::Json => serde_json::to_string(report).map_err(|e| Failure::Failed(e.to_string()))?,
     };
     write_text(common, &written)
@@ -76,7 +77,7 @@ pub fn write_text(common: &Common, text: &str) -> Result<(), Failure> {
 
 /// All lines of the inputs that are not blank.
 pub fn read_lines(files: &[PathBuf]) -> Result<Vec<String>, Failure> {
-    let mut inputs = Inputs::new(files);
+    let mut inputs = Inputs::new(files, false);
     let mut lines = Vec::new();
     loop {
         let batch = inputs.next_batch(1024)?;

@@ -87,15 +87,11 @@ impl TrialOptions {
     ///
     /// # Errors
     /// When the line holds a name that is not on the list, or a value that cannot be.
-    pub fn replaying(
-        &self,
-        line: &[u8],
-        usual: &Self,
-        given: impl Fn(&str) -> bool,
-    ) -> Result<Replayed, OptionsError> {
+    pub fn replaying(&self, line: &[u8], usual: &Self, given: impl Fn(&str) -> bool) -> Result<Replayed, OptionsError> {
         let malformed = |error: serde_json::Error| OptionsError::Malformed(error.to_string());
         let recorded: Map<String, Value> = serde_json::from_slice(line).map_err(malformed)?;
-        let strange: Vec<String> = recorded.keys().filter(|name| !is_on_the_list(name)).map(|n| asked(n, &recorded)).collect();
+        let strange: Vec<String> =
+            recorded.keys().filter(|name| !is_on_the_list(name)).map(|n| asked(n, &recorded)).collect();
         if !strange.is_empty() {
             return Err(OptionsError::Refused(strange.join(", ")));
         }
@@ -159,7 +155,8 @@ fn is_on_the_list(name: &str) -> bool {
 fn asked(name: &str, recorded: &Map<String, Value>) -> String {
     match recorded.get(name) {
         Some(Value::Array(words)) => {
-            let words: Vec<String> = words.iter().map(|word| word.as_str().map_or(word.to_string(), str::to_string)).collect();
+            let words: Vec<String> =
+                words.iter().map(|word| word.as_str().map_or(word.to_string(), str::to_string)).collect();
             format!("a command line (`{}`)", words.join(" "))
         }
         _ => format!("`{name}`"),
@@ -258,7 +255,8 @@ mod tests {
 
     #[test]
     fn a_log_chooses_no_file_no_output_and_no_robot() {
-        for strange in ["output", "force", "robot", "serve", "camera_out", "plot", "record", "lexicon", "model", "from"] {
+        for strange in ["output", "force", "robot", "serve", "camera_out", "plot", "record", "lexicon", "model", "from"]
+        {
             let error = replaying(&format!(r#"{{"{strange}":"x","seed":1}}"#)).expect_err(strange);
             assert!(error.to_string().contains(&format!("asks for `{strange}`")), "{error}");
         }
@@ -276,7 +274,15 @@ mod tests {
 
     #[test]
     fn a_value_that_cannot_be_is_named() {
-        for line in [r#"{"time_limit":-1}"#, r#"{"light":3}"#, r#"{"noise":"loud"}"#, r#"{"seed":-1}"#, r#"{"blind":"yes"}"#, "[]", "7"] {
+        for line in [
+            r#"{"time_limit":-1}"#,
+            r#"{"light":3}"#,
+            r#"{"noise":"loud"}"#,
+            r#"{"seed":-1}"#,
+            r#"{"blind":"yes"}"#,
+            "[]",
+            "7",
+        ] {
             assert!(matches!(replaying(line), Err(OptionsError::Value(..) | OptionsError::Malformed(_))), "{line}");
         }
     }

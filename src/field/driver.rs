@@ -107,8 +107,10 @@ impl RealDriver {
         self.robot.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
-        let failed = |error: String| StageError::new(error);
+    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<Note, StageError> {
+        let failed = |error: &dyn std::fmt::Display| StageError::new(error.to_string());
+        let name = record.file_name();
+        self.outputs.prepare(&name, id).map_err(|error| failed(&error))?;
         let mut robot = self.robot();
         let Robot { base, eyes } = &mut *robot;
         base.begin_trial();
@@ -120,7 +122,7 @@ impl RealDriver {
             settings: format!("{:?}", self.options),
             record,
         };
-        let recorder = Recorder::begin(&self.outputs, id, &about).map_err(|error| failed(error.to_string()))?;
+        let recorder = Recorder::begin(&self.outputs, &name, &about).map_err(|error| failed(&error))?;
         let mut log = Log {
             recorder,
             silent: Silent,
@@ -132,13 +134,14 @@ impl RealDriver {
         let mut run = run(&self.map, plan, self.options, base.as_mut(), eyes.as_mut(), &mut log);
         log.drain(base.time_s());
         let picture = eyes.frame().map(RgbdFrame::color_png);
-        self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, id)?;
+        let mut lost = self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, &name);
         record.put(&run.trial);
-        let Some(recorder) = log.recorder else { return Ok(()) };
-        let line = serde_json::to_string(record).map_err(|error| failed(error.to_string()))?;
-        recorder
-            .finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line)
-            .map_err(|error| failed(error.to_string()))
+        if let Some(recorder) = log.recorder {
+            let line = serde_json::to_string(record).map_err(|error| failed(&error))?;
+            let written = recorder.finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line);
+            lost.extend(written.err().map(|error| error.to_string()));
+        }
+        Ok(Note::of(&lost))
     }
 }
 
@@ -249,7 +252,7 @@ impl Stage for RealDriver {
         self.busy.set(true);
         let driven = self.drive(record, &plan, &id);
         self.busy.set(false);
-        driven.map(|()| Note::Done)
+        driven
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {

@@ -118,8 +118,9 @@ impl Canvas {
         let label = format!("{} {:.0}%", detection.category, 100.0 * detection.confidence);
         if let Some((x, y)) = pixel(frame, [detection.x, detection.y, detection.height]) {
             self.text(
-                x.clamp(0.0, self.picture as f64 - 8.0 * label.len() as f64),
-                y.clamp(2.0, self.height as f64 - 10.0),
+                // A label wider than the picture begins at its left edge, and is cut off.
+                x.min(self.picture as f64 - 8.0 * label.len() as f64).max(0.0),
+                y.min(self.height as f64 - 10.0).max(2.0),
                 &label,
                 ink,
             );

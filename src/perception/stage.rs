@@ -3,9 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use serde::Serialize;
+
 use super::external::ExternalDetector;
 use super::{Detector, FrameFiles, View, check, overlay};
-use crate::files::write_file;
+use crate::escape::for_file_name;
+use crate::files::{Claims, write_file};
 use crate::frame::RgbdFrame;
 use crate::map::RoomMap;
 use crate::record::{Detection, Note, Record, Stage, StageError};
@@ -25,6 +28,8 @@ pub struct Perceiver {
     pub overlay: Option<PathBuf>,
     /// Whether drawings may replace older ones.
     pub force: bool,
+    /// Which drawings belong to which frame of this run.
+    pub claims: Claims,
 }
 
 impl Perceiver {
@@ -53,12 +58,11 @@ impl Perceiver {
 
     fn draw(&self, name: &str, frame: &RgbdFrame, view: &View) -> Result<(), StageError> {
         let Some(folder) = &self.overlay else { return Ok(()) };
-        let plain: String =
-            name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect();
         let written =
             std::fs::create_dir_all(folder).map_err(|error| StageError::new(format!("{}: {error}", folder.display())));
         written?;
-        let path = folder.join(format!("{plain}.png"));
+        let path = folder.join(format!("{}.png", for_file_name(name)));
+        self.claims.claim(&path, name).map_err(|error| StageError::new(error.to_string()))?;
         write_file(&path, &overlay(frame, view), self.force).map_err(|error| StageError::new(error.to_string()))
     }
 
@@ -80,15 +84,31 @@ fn stem(path: &Path) -> String {
 
 /// Frames may come from a recording, so the pictures are always handed over as files of their own.
 fn external_view(external: &ExternalDetector, frame: &RgbdFrame) -> Result<View, StageError> {
-    let failed = |error: &dyn std::fmt::Display| StageError::new(format!("--detector: {error}"));
-    let folder = tempfile::tempdir().map_err(|error| failed(&error))?;
-    let (rgb, depth) = (folder.path().join("rgb.png"), folder.path().join("depth.png"));
-    write_file(&rgb, &frame.color_png(), true).map_err(|error| failed(&error))?;
-    write_file(&depth, &frame.depth_png(), true).map_err(|error| failed(&error))?;
-    let handed = FrameFiles::of(frame, rgb, depth);
-    let line = serde_json::to_string(&handed).map_err(|error| failed(&error))?;
-    let furniture = external.detect(&line).map_err(|error| StageError::new(error.to_string()))?;
+    let furniture = external.detect(|number| handed(external.pictures(), frame, number));
+    let furniture = furniture.map_err(|error| StageError::new(error.to_string()))?;
     Ok(View { furniture, objects: Vec::new() })
+}
+
+/// A frame as a detector reads it.
+#[derive(Serialize)]
+struct Handed {
+    /// To be repeated in the answer.
+    number: u64,
+    #[serde(flatten)]
+    files: FrameFiles,
+}
+
+/// The line that hands over a frame; its pictures take the place of those of the frame before.
+fn handed(folder: &Path, frame: &RgbdFrame, number: u64) -> Result<String, String> {
+    let (rgb, depth) = (folder.join("rgb.png"), folder.join("depth.png"));
+    let mut files = FrameFiles::of(frame, rgb.clone(), depth.clone());
+    if frame.color.is_empty() {
+        files.rgb = None;
+    } else {
+        write_file(&rgb, &frame.color_png(), true).map_err(|error| error.to_string())?;
+    }
+    write_file(&depth, &frame.depth_png(), true).map_err(|error| error.to_string())?;
+    serde_json::to_string(&Handed { number, files }).map_err(|error| error.to_string())
 }
 
 impl Stage for Perceiver {

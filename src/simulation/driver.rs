@@ -3,7 +3,7 @@
 use super::{Home, Settings, run, stream_of};
 use crate::behavior::{Silent, Watcher, plan_of, text_of};
 use crate::record::{Note, Plan, Record, Stage, StageError};
-use crate::recording::{About, LogError, Outputs, Recorder};
+use crate::recording::{About, Outputs, Recorder};
 
 /// Runs the plan of each record in a home.
 #[derive(Clone, Debug)]
@@ -17,8 +17,10 @@ pub struct Driver {
 }
 
 impl Driver {
-    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
-        let failed = |error: LogError| StageError::new(error.to_string());
+    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<Note, StageError> {
+        let failed = |error: &dyn std::fmt::Display| StageError::new(error.to_string());
+        let name = record.file_name();
+        self.outputs.prepare(&name, id).map_err(|error| failed(&error))?;
         let truth = self.home.pieces();
         let about = About {
             map: &self.home.map,
@@ -28,7 +30,7 @@ impl Driver {
             settings: format!("{:?}", self.settings),
             record,
         };
-        let mut recorder = Recorder::begin(&self.outputs, id, &about).map_err(failed)?;
+        let mut recorder = Recorder::begin(&self.outputs, &name, &about).map_err(|error| failed(&error))?;
         if let Some(recorder) = &mut recorder {
             recorder.options(&self.outputs.options);
             self.outputs.pace.into_iter().for_each(|times| recorder.keep_pace(times));
@@ -40,11 +42,13 @@ impl Driver {
         let mut run = run(&self.home, plan, &self.settings, stream_of(id), watcher);
         let wants_picture = recorder.is_some() || self.outputs.picture.is_some();
         let picture = wants_picture.then(|| self.home.take_picture(run.final_pose).color_png());
-        self.outputs.leave((&self.home.map, &truth), &mut run, picture.as_deref(), record, id)?;
+        let mut lost = self.outputs.leave((&self.home.map, &truth), &mut run, picture.as_deref(), record, &name);
         record.put(&run.trial);
-        let (Some(recorder), Some(picture)) = (recorder, picture) else { return Ok(()) };
-        let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
-        recorder.finish(run.trial.duration_s.0, picture, &line).map_err(failed)
+        if let (Some(recorder), Some(picture)) = (recorder, picture) {
+            let line = serde_json::to_string(record).map_err(|error| failed(&error))?;
+            lost.extend(recorder.finish(run.trial.duration_s.0, picture, &line).err().map(|error| error.to_string()));
+        }
+        Ok(Note::of(&lost))
     }
 }
 
@@ -52,8 +56,7 @@ impl Stage for Driver {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
         let plan = plan_of(record, &self.home.map)?;
         let id = record.id().unwrap_or_else(|| "record".to_string());
-        self.drive(record, &plan, &id)?;
-        Ok(Note::Done)
+        self.drive(record, &plan, &id)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {

@@ -13,6 +13,7 @@ use super::Home;
 use super::arcos::{ServeAddress, Server, ServerSettings, serve};
 use super::base::{Obstacles, SimulatedBase};
 use super::camera::{Kinect, SolidScene};
+use crate::files::refuse_existing;
 use crate::frame::{inverse, placed};
 use crate::geometry::Pose;
 use crate::recording::{FrameWriter, TimedFrame};
@@ -35,6 +36,8 @@ pub struct Served {
     pub truth: Option<PathBuf>,
     /// Seed of the camera's faults.
     pub seed: u64,
+    /// Overwrite files that exist.
+    pub force: bool,
 }
 
 /// Where the robot is: in truth, and by its odometry.
@@ -47,6 +50,9 @@ struct Whereabouts {
 impl Served {
     /// Serves the robot in `home` until `goes_on` says no; `tell` hears what happens.
     pub fn run(&self, home: &Home, mut goes_on: impl FnMut() -> bool, tell: impl Fn(&str)) -> io::Result<()> {
+        for path in [&self.camera, &self.truth].into_iter().flatten() {
+            refuse_existing(path, self.force).map_err(|error| io::Error::new(io::ErrorKind::AlreadyExists, error))?;
+        }
         let base = SimulatedBase::new(Obstacles::new(&home.map, &home.scene), home.map.start);
         let mut server = Server::new(base, self.settings.clone());
         let whereabouts = Arc::new(Mutex::new(Whereabouts::default()));

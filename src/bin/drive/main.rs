@@ -75,7 +75,7 @@ impl Arguments {
 
     fn drive(self, reporter: Reporter) -> Result<Exit, Failure> {
         if self.robot.serves() {
-            return self.robot.run_served(&self.home.load()?, &reporter, self.common.seed);
+            return self.robot.run_served(&self.home.load()?, &reporter, self.common.seed, self.common.force);
         }
         if self.robot.is_real() {
             return self.drive_real(reporter);
@@ -91,7 +91,7 @@ impl Arguments {
         let recorded = self.trial_options().line();
         let watched = self.outputs.is_live();
         let outputs = self.outputs.outputs(self.common.force, recorded, &reporter)?;
-        let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
+        let mut lines = self.log.lines(&self.common, "/fetch/plan")?;
         // Nobody watches two trials at once.
         let common = if watched { Common { jobs: 1, ..self.common } } else { self.common };
         let driver = Driver { home, settings, outputs };
@@ -103,7 +103,7 @@ impl Arguments {
         let map = self.home.rooms()?;
         let options = self.executive.options();
         let outputs = self.outputs.outputs(self.common.force, String::new(), &reporter)?;
-        let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
+        let mut lines = self.log.lines(&self.common, "/fetch/plan")?;
         // One robot, one plan at a time.
         let common = Common { jobs: 1, ..self.common };
         let to_stdout = common.output.is_none();
@@ -114,5 +114,8 @@ impl Arguments {
 }
 
 fn main() -> ExitCode {
+    if robot::stands_by() {
+        return robot::stand_by();
+    }
     cli::main::<Arguments>()
 }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use spatial_fetch::cli::{Failure, Reporter, within};
+use spatial_fetch::files::Claims;
 use spatial_fetch::recording::Live;
 use spatial_fetch::recording::Outputs;
 
@@ -38,7 +39,8 @@ impl Arguments {
     pub fn outputs(self, force: bool, options: String, reporter: &Reporter) -> Result<Outputs, Failure> {
         let live = self.live.as_ref().map(|address| address.serve(reporter)).transpose()?;
         let pace = live.is_some().then_some(self.live_speed);
-        Ok(Outputs { plot: self.plot, picture: self.picture, record: self.record, live, pace, force, options })
+        let Self { plot, picture, record, .. } = self;
+        Ok(Outputs { plot, picture, record, live, pace, force, claims: Claims::default(), options })
     }
 }
 

@@ -5,9 +5,12 @@ mod fuse;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
+use std::time::Duration;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, Failure, FrameInput, FromLog, Intake, Program};
+use spatial_fetch::cli::{self, Common, Exit, Failure, FrameInput, FromLog, Intake, Program, Reporter, within};
+use spatial_fetch::files::Claims;
+use spatial_fetch::limits::DETECTOR_SECONDS;
 use spatial_fetch::map::load_map;
 use spatial_fetch::perception::{Detector, ExternalDetector, Model, Perceiver};
 use spatial_fetch::record::Detection;
@@ -40,6 +43,9 @@ struct Arguments {
     /// A command that detects instead: a frame as a JSON line in, a line with "detections" out
     #[arg(long, value_name = "CMD")]
     detector: Option<String>,
+    /// Seconds that the command may take for one frame
+    #[arg(long, value_name = "SECONDS", requires = "detector", default_value_t = DETECTOR_SECONDS.value as f64, value_parser = within(0.1..=86_400.0))]
+    detector_patience: f64,
     #[command(flatten)]
     log: FromLog,
     #[command(flatten)]
@@ -54,7 +60,13 @@ impl Arguments {
     fn perceiver(&self) -> Result<Perceiver, Failure> {
         let failed = |error: &dyn std::fmt::Display| Failure::Failed(error.to_string());
         let beside = self.common.files.first().and_then(|file| file.parent().map(PathBuf::from));
-        let external = self.detector.as_deref().map(ExternalDetector::start).transpose().map_err(|e| failed(&e))?;
+        let patience = Some(Duration::from_secs_f64(self.detector_patience));
+        let external = self.detector.as_deref().map(|command| ExternalDetector::start(command, patience));
+        let external = external.transpose().map_err(|error| failed(&error))?;
+        if let Some(external) = &external {
+            let ender = external.ender();
+            cli::on_interrupt(move || ender.end());
+        }
         Ok(Perceiver {
             folder: self.folder.clone().or(beside).unwrap_or_default(),
             detector: self.model.as_deref().map_or_else(|| Ok(Detector::default()), load_detector)?,
@@ -62,6 +74,7 @@ impl Arguments {
             map: self.map.as_deref().map(load_map).transpose().map_err(|e| failed(&e))?,
             overlay: self.overlay.clone(),
             force: self.common.force,
+            claims: Claims::default(),
         })
     }
 }
@@ -86,7 +99,7 @@ impl Program for Arguments {
     }
     fn run(self) -> Result<Exit, Failure> {
         let (perceiver, common) = (self.perceiver()?, &self.common);
-        match FrameInput::open(&common.files, &self.log)? {
+        let exit = match FrameInput::open(&common.files, &self.log, common.keep_going)? {
             input if self.fuse => fuse::run(common, input, &perceiver),
             FrameInput::Lines(mut lines) => cli::run_filter_on(Self::NAME, common, &mut lines, INTAKE, &perceiver),
             FrameInput::Logs(mut logs) => {
@@ -94,7 +107,10 @@ impl Program for Arguments {
                     perceiver.see(frame, record)
                 })
             }
-        }
+        }?;
+        let Some(Err(error)) = perceiver.external.as_deref().map(ExternalDetector::finish) else { return Ok(exit) };
+        Reporter::new(Self::NAME, common).fatal(&error.to_string());
+        Ok(Exit::Lost)
     }
 }
 

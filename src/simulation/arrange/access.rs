@@ -47,13 +47,7 @@ fn is_table(item: &Item) -> bool {
     matches!(item.kind().shape, Shape::Table | Shape::RoundTable | Shape::HexagonTable)
 }
 
-fn is_accessible(
-    item: &Item,
-    grid: &ClearanceGrid,
-    rooms: &ClearanceGrid,
-    reached: &Reached,
-    to_turn: f64,
-) -> bool {
+fn is_accessible(item: &Item, grid: &ClearanceGrid, rooms: &ClearanceGrid, reached: &Reached, to_turn: f64) -> bool {
     let centre = item.pose().position();
     let outline = item.footprint();
     (0..DIRECTIONS).any(|i| {

@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use crate::robot::arcos::parameters::Parameters;
 use crate::robot::Body;
+use crate::robot::arcos::parameters::Parameters;
 use crate::robot::p3dx::{self, SonarArray};
 
 /// Limits and manners; the defaults are safe ones.
