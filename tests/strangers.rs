@@ -4,29 +4,26 @@
 
 mod common;
 
+use std::collections::BTreeMap;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Command;
 
 use common::{executable, pipe, run};
-use foxglove::{ChannelBuilder, Context, McapWriter, Schema};
 
 const PLAN: &str = r#"{"id":"1","plan":{"map":"apartment","room":"hallway","actions":[{"do":"move","direction":"left"}],"problems":[]}}"#;
 
 /// A log with a plan, and with `options` as those of its trial.
 fn log_with(path: &Path, options: &str) {
-    let context = Context::new();
-    let writer = McapWriter::new().context(&context).create_new_buffered_file(path).expect("a log");
+    let file = std::fs::File::create(path).expect("a file");
+    let mut writer = mcap::Writer::new(std::io::BufWriter::new(file)).expect("begun");
+    let schema = writer.add_schema("x", "jsonschema", br#"{"type":"object"}"#).expect("a schema");
     for (topic, line) in [("/fetch/options", options), ("/fetch/plan", PLAN)] {
-        let channel = ChannelBuilder::new(topic)
-            .context(&context)
-            .message_encoding("json")
-            .schema(Schema::new("x", "jsonschema", br#"{"type":"object"}"#.to_vec()))
-            .build_raw()
-            .expect("a channel");
-        channel.log(line.as_bytes());
+        let channel_id = writer.add_channel(schema, topic, "json", &BTreeMap::new()).expect("a channel");
+        let header = mcap::records::MessageHeader { channel_id, sequence: 1, log_time: 0, publish_time: 0 };
+        writer.write_to_known_channel(&header, line.as_bytes()).expect("a message");
     }
-    writer.close().expect("written");
+    writer.finish().expect("written");
 }
 
 fn files(folder: &Path) -> Vec<String> {
