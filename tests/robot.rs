@@ -46,7 +46,16 @@ fn a_static_instruction_without_a_camera_says_what_it_lacks() {
 fn each_signal_stops_the_robot_by_our_own_word_and_leaves_a_whole_log() {
     use std::os::unix::process::ExitStatusExt;
     // INT, TERM and HUP end with 130; the others as they always do.
-    for (signal, code) in [("INT", 130), ("TERM", 130), ("HUP", 130), ("QUIT", -3), ("USR1", -10), ("ALRM", -14), ("XCPU", -24), ("ABRT", -6)] {
+    for (signal, code) in [
+        ("INT", 130),
+        ("TERM", 130),
+        ("HUP", 130),
+        ("QUIT", -3),
+        ("USR1", -10),
+        ("ALRM", -14),
+        ("XCPU", -24),
+        ("ABRT", -6),
+    ] {
         let served = Served::start(&[]);
         let log = served.path("trial.mcap");
         let mut child = client(&served, &log, FAR_AHEAD);

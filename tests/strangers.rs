@@ -186,7 +186,7 @@ fn serving_overwrites_no_file_and_no_link_of_others() {
     std::os::unix::fs::symlink("mine", &link).expect("a link");
     let path = mine.to_str().expect("UTF-8");
     for option in ["--truth-out", "--camera-out"] {
-        let ran = run("drive", &["--serve", "tcp:127.0.0.1:0", option, path], "").expect_code(1);
+        let ran = run("drive", &["--serve", "tcp:127.0.0.1:0", option, path], "").expect_code(2);
         assert!(ran.err.contains("mine exists; name another file or give --force"), "{}", ran.err);
     }
     let ran = run("drive", &["--serve", &format!("pty:{}", link.display())], "").expect_code(1);

@@ -1,8 +1,10 @@
 //! How the pilot turns and drives along a way.
 
+use super::foresight::trapezoid;
 use super::furniture::Furniture;
 use super::getting_clear::{End, GUARD_M};
 use super::pilot::{Halt, PLAIN_VIEW_M, Pilot, TICK_S};
+use super::progress::Progress;
 use super::route::{length, route};
 use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, distance_to_segment, wrap_angle};
 
@@ -12,15 +14,24 @@ const TICKS_PER_GLIMPSE: usize = 6;
 const DETOUR: f64 = 1.25;
 /// What a route may shrink by before it is planned anew, metres.
 const SHRINKS_M: f64 = 0.01;
-/// Speeds and the braking they count on.
+/// Speeds and the braking they count on; a base that brakes less is counted on for a share of what it does.
 const SPEED_M_S: f64 = 0.5;
 const BOLD_M_S: f64 = 0.25;
+const CREEP_M_S: f64 = 0.05;
 const TURN_RAD_S: f64 = 1.2;
 const BRAKE_M_S2: f64 = 0.25;
 const TURN_BRAKE_RAD_S2: f64 = 0.8;
+const BRAKE_SHARE: f64 = 0.7;
 /// How near a driven-to point must be, metres, and a turned-to heading, radians.
 const NEAR_M: f64 = 0.06;
 const NEAR_RAD: f64 = 0.03;
+/// At rest so near to the heading it is not turned once more, radians.
+const SETTLED_RAD: f64 = 0.045;
+/// Slower than this a turn is over, rad/s.
+const TURNED_RAD_S: f64 = 0.05;
+/// Nearer to its goal by so much, a turn or a drive gets on, radians and metres.
+const TURNS_ON_RAD: f64 = 0.02;
+const DRIVES_ON_M: f64 = 0.05;
 /// Off the line by more than this, the robot stops and turns first, radians.
 const OFF_LINE_RAD: f64 = 0.35;
 /// This far past its outline a room has been entered, metres.
@@ -38,14 +49,20 @@ impl Pilot<'_> {
         self.come_to_rest()?;
         self.make_room()?;
         let mut rescues = 0;
+        let mut progress = Progress::new(TURNS_ON_RAD);
         loop {
-            let off = wrap_angle(heading - self.pose().heading);
-            let turning = self.base.velocity().1;
-            if off.abs() < NEAR_RAD && turning.abs() < 0.05 {
-                return self.come_to_rest();
+            let (there, (_, turning)) = self.ahead();
+            let off = wrap_angle(heading - there.heading);
+            if off.abs() < NEAR_RAD && turning.abs() < TURNED_RAD_S {
+                self.come_to_rest()?;
+                if wrap_angle(heading - self.pose().heading).abs() < SETTLED_RAD {
+                    return Ok(());
+                }
             }
-            let fastest = (2.0 * TURN_BRAKE_RAD_S2 * off.abs()).sqrt().min(TURN_RAD_S);
-            self.tick(0.0, off.signum() * fastest.min(off.abs() / TICK_S * 0.5))?;
+            if !progress.goes_on(off.abs(), self.base.time_s()) {
+                return Err(Halt::Stuck(format!("no rotation came about: {:.0}° are left", off.to_degrees())));
+            }
+            self.tick(0.0, self.turning_toward(off, turning))?;
             if self.is_held() {
                 rescues += 1;
                 if rescues > MOST_RESCUES {
@@ -54,6 +71,21 @@ impl Pilot<'_> {
                 self.back_off(self.freer_end())?;
             }
         }
+    }
+
+    /// The turning to ask for with `off` radians left, at `turning` rad/s.
+    fn turning_toward(&self, off: f64, turning: f64) -> f64 {
+        let speeding = self.body.turn_acceleration_rad_s2;
+        let braking = (BRAKE_SHARE * speeding).min(TURN_BRAKE_RAD_S2);
+        trapezoid(off, turning, TURN_RAD_S.min(self.body.turn_rad_s), (speeding, braking), TICK_S)
+    }
+
+    /// The speed to ask for with `left` metres left, at `speed` m/s.
+    fn speed_toward(&self, left: f64, speed: f64) -> f64 {
+        let fastest = if self.is_bold { BOLD_M_S } else { SPEED_M_S }.min(self.body.speed_m_s);
+        let braking = (BRAKE_SHARE * self.body.braking_m_s2).min(BRAKE_M_S2);
+        let speeding = self.body.acceleration_m_s2;
+        trapezoid(left.max(0.0), speed.max(0.0), fastest, (speeding, braking), TICK_S).max(CREEP_M_S)
     }
 
     /// Drives to a point, metres, round everything known.
@@ -184,21 +216,24 @@ impl Pilot<'_> {
 
     fn drive_line(&mut self, point: Vec2, rest: &[Vec2], is_last: bool) -> Result<bool, Halt> {
         let near = if is_last { NEAR_M } else { 2.0 * NEAR_M };
-        let mut ticks = 0;
-        while self.pose().distance_to(point) > near {
-            let off = self.pose().bearing_to(point);
-            if off.abs() > OFF_LINE_RAD {
-                let heading = wrap_angle(self.pose().heading + off);
-                self.turn_to(heading)?;
+        let (mut ticks, mut progress) = (0, Progress::new(DRIVES_ON_M));
+        while self.ahead().0.distance_to(point) > near {
+            if self.ahead().0.bearing_to(point).abs() > OFF_LINE_RAD {
+                self.come_to_rest()?;
+                let here = self.pose();
+                self.turn_to(wrap_angle(here.heading + here.bearing_to(point)))?;
+                progress.turned(self.base.time_s());
             }
             let free = self.free_ahead() - GUARD_M;
             if free <= 0.0 && self.something_is_ahead()? {
                 return self.met_something();
             }
-            let distance = self.pose().distance_to(point);
-            let fastest = (2.0 * BRAKE_M_S2 * distance.min(free.max(0.0)))
-                .sqrt()
-                .clamp(0.05, if self.is_bold { BOLD_M_S } else { SPEED_M_S }.min(self.body.speed_m_s));
+            let (there, (speed, _)) = self.ahead();
+            let (distance, off) = (there.distance_to(point), there.bearing_to(point));
+            if !progress.goes_on(distance, self.base.time_s()) {
+                return Err(Halt::Stuck(format!("it gets no nearer to ({:.1}, {:.1})", point.x, point.y)));
+            }
+            let fastest = self.speed_toward(distance.min(free), speed);
             self.tick(fastest * off.cos().max(0.0), (1.5 * off).clamp(-TURN_RAD_S, TURN_RAD_S))?;
             if self.is_held() {
                 self.touched()?;

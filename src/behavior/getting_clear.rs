@@ -1,6 +1,7 @@
 //! Getting clear: what the sonars hear close by, what was met or touched, and room for a turn.
 
 use super::pilot::{Halt, Pilot, TICK_S};
+use super::progress::PATIENCE_S;
 use crate::geometry::{Vec2, vec2};
 use crate::robot::SonarReading;
 
@@ -27,9 +28,12 @@ pub(super) enum End {
 }
 
 impl Pilot<'_> {
-    /// Metres from the front sonars to what they hear, less what the robot has gone since they fired.
+    /// Metres from the front sonars to what they hear, less what the robot has gone since they fired, and will have
+    /// gone when the next command reaches it.
     pub(super) fn free_ahead(&self) -> f64 {
-        self.nearest(|bearing| bearing <= GUARD_RAD) - self.base.velocity().0.max(0.0) * SONAR_AGE_S
+        let (there, (speed, _)) = self.ahead();
+        let gone = self.pose().to_local(there.position()).x.max(0.0);
+        self.nearest(|bearing| bearing <= GUARD_RAD) - speed.max(0.0) * SONAR_AGE_S - gone
     }
 
     /// Metres from the sonars at one end to what they hear.
@@ -131,12 +135,13 @@ impl Pilot<'_> {
     }
 
     pub(super) fn come_to_rest(&mut self) -> Result<(), Halt> {
-        loop {
-            let (linear, angular) = self.base.velocity();
-            if linear.abs() < 0.01 && angular.abs() < 0.02 {
-                return Ok(());
-            }
+        let began_s = self.base.time_s();
+        while !self.foresight.is_at_rest(self.base.velocity()) {
             self.tick(0.0, 0.0)?;
+            if self.base.time_s() - began_s > PATIENCE_S {
+                return Err(Halt::Stuck(format!("it does not come to rest within {PATIENCE_S} s")));
+            }
         }
+        Ok(())
     }
 }

@@ -11,8 +11,10 @@
 mod approach;
 mod beliefs;
 mod clearances;
+mod delivery;
 mod driving;
 mod executive;
+mod foresight;
 mod free_space;
 mod furniture;
 mod getting_clear;
@@ -22,6 +24,7 @@ mod localizer;
 pub mod motion;
 mod names;
 mod pilot;
+mod progress;
 mod regions;
 mod relation;
 mod route;

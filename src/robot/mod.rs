@@ -30,6 +30,16 @@ pub trait MobileBase {
     /// Asks for a velocity (m/s, rad/s) and lets `seconds` pass. The base keeps to its own limits of speed and acceleration.
     fn drive(&mut self, linear: f64, angular: f64, seconds: f64) -> Result<(), RobotError>;
 
+    /// Seconds since the report that pose, velocity and sonars are from.
+    fn age_s(&self) -> f64 {
+        0.0
+    }
+
+    /// Seconds from a velocity that is asked for to the report that shows it, as found when connecting.
+    fn dead_time_s(&self) -> f64 {
+        0.0
+    }
+
     /// The latest sonar readings.
     fn sonar(&self) -> &[SonarReading];
 

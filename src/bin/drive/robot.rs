@@ -19,7 +19,7 @@ use spatial_fetch::robot::p3dx::SonarArray;
 use spatial_fetch::robot::{RealBase, Remote};
 use spatial_fetch::simulation::arcos::DryLine;
 use spatial_fetch::simulation::arcos::{ServeAddress, ServerSettings};
-use spatial_fetch::simulation::{Home, Served};
+use spatial_fetch::simulation::{self, Home, Served};
 
 /// The models whose scales are known.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -31,6 +31,7 @@ enum Model {
 }
 
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Robot")]
 pub struct Arguments {
     /// sim, `serial:/dev/ttyUSB0[@38400]` or tcp:HOST:8101
@@ -104,16 +105,25 @@ impl Arguments {
     }
 
     /// Serves until interrupted.
-    pub fn run_served(self, home: &Home, reporter: &Reporter, seed: u64, force: bool) -> Result<Exit, Failure> {
+    pub fn run_served(
+        self,
+        home: &Home,
+        reporter: &Reporter,
+        how: simulation::Settings,
+        force: bool,
+    ) -> Result<Exit, Failure> {
         let Some(address) = self.serve else { return Ok(Exit::Done) };
         let settings = ServerSettings { watchdog: Duration::from_millis(self.watchdog), ..ServerSettings::default() };
-        let served = Served { address, settings, camera: self.camera_out, truth: self.truth_out, seed, force };
+        for path in [&self.camera_out, &self.truth_out].into_iter().flatten() {
+            spatial_fetch::files::refuse_existing(path, force)?;
+        }
+        let served = Served { address: address.clone(), settings, camera: self.camera_out, truth: self.truth_out, how };
         let stop = spatial_fetch::simulation::served_until_interrupted();
         let closing = stop.clone();
         on_interrupt(move || closing.stop());
         let run = served.run(home, || stop.goes_on(), |text| reporter.remark(text));
         stop.ended();
-        run.map(|()| Exit::Done).map_err(|error| Failure::Failed(format!("--serve: {error}")))
+        run.map(|()| Exit::Done).map_err(|error| Failure::Failed(format!("--serve {address}: {error}")))
     }
 
     /// Connects to the robot.

@@ -39,6 +39,7 @@ fn upshot(upshot: &Upshot) -> String {
         Outcome::Arrived => "arrived",
         Outcome::NotFound => "not found",
         Outcome::Blocked => "blocked",
+        Outcome::Stuck => "stuck",
         Outcome::Timeout => "timed out",
         Outcome::Stopped => "stopped",
         Outcome::LinkLost => "link lost",
