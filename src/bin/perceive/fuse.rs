@@ -21,7 +21,9 @@ pub fn run(common: &Common, input: FrameInput, perceiver: &Perceiver) -> Result<
     let sink = open_output(common)?;
     for scene in gathering.scenes.fused() {
         let text = match common.format {
-            Format::Json => serde_json::to_string(&scene).map_err(|error| Failure::Failed(error.to_string()))?,
+            Format::Json | Format::Csv => {
+                serde_json::to_string(&scene).map_err(|error| Failure::Failed(error.to_string()))?
+            }
             Format::Text => for_terminal(&scene.text()).into_owned(),
         };
         sink.write(format!("{text}\n").as_bytes())?;

@@ -24,7 +24,7 @@ use spatial_fetch::record::Detection;
 #[command(
     name = "perceive",
     version,
-    after_help = "Example:\n  perceive --format text --overlay seen fixtures/frames/frames.jsonl"
+    after_help = "Example:\n  evaluate frames --count 10 --into frames\n  perceive --format text --overlay seen frames/index.jsonl"
 )]
 struct Arguments {
     /// Where relative paths of pictures begin [default: the folder of the first FILE]
