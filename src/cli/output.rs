@@ -78,9 +78,17 @@ impl SharedSink {
 pub fn open_output(common: &Common) -> Result<SharedSink, Failure> {
     let sink = match &common.output {
         None => Sink { name: "standard output".to_string(), target: Target::Stream(Box::new(io::stdout())) },
+        Some(path) if is_standard_output(path) => {
+            Sink { name: path.display().to_string(), target: Target::Stream(Box::new(io::stdout())) }
+        }
         Some(path) => Sink { name: path.display().to_string(), target: open_file(path, common.force)? },
     };
     Ok(SharedSink(Arc::new(Mutex::new(sink))))
+}
+
+/// The names by which the system knows standard output, whatever it is: a file behind it is not to be replaced.
+fn is_standard_output(path: &Path) -> bool {
+    ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
 }
 
 /// Whether whoever read standard output has gone.

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::paint::painted;
 use super::{Common, Exit, Failure, Format, Inputs, Source, open_output, read_file};
+use crate::escape::for_terminal;
 use crate::evaluation::robustness::{Robustness, robustness_tables};
 use crate::evaluation::{Gold, Scores, read_gold, text_tables, with_texts};
 use crate::record::{Record, Shade};
@@ -64,7 +65,7 @@ pub fn write_report(common: &Common, report: &impl Serialize, table: impl FnOnce
     let written = match common.format {
         Format::Text => {
             let shade = |number, _: &str| if number == 0 { Shade::Said } else { Shade::Plain };
-            let (text, style) = (table(), common.style());
+            let (text, style) = (for_terminal(&table()).into_owned(), common.style());
             if style.color { painted(&text, shade) } else { text }
         }
         Format::Csv => {
@@ -84,7 +85,7 @@ pub fn write_text(common: &Common, text: &str) -> Result<(), Failure> {
 
 /// All lines of the inputs that are not blank.
 pub fn read_lines(files: &[PathBuf]) -> Result<Vec<String>, Failure> {
-    let mut inputs = Inputs::new(files);
+    let mut inputs = Inputs::new(files, false);
     let mut lines = Vec::new();
     loop {
         let batch = inputs.next_batch(1024)?;

@@ -7,7 +7,8 @@ use super::answer::Answer;
 use super::external::ExternalDetector;
 use super::network::joined;
 use super::{Detector, FrameFiles, ObjectSighting, Told, View, check, furniture_chance, overlay};
-use crate::files::write_file;
+use crate::escape::for_file_name;
+use crate::files::{Claims, write_file};
 use crate::frame::RgbdFrame;
 use crate::map::RoomMap;
 use crate::record::{CameraPose, Detection, Note, PoseSource, Record, Rounded, Stage, StageError};
@@ -33,6 +34,8 @@ pub struct Perceiver {
     pub overlay: Option<PathBuf>,
     /// Whether drawings may replace older ones.
     pub force: bool,
+    /// Which drawings belong to which frame of this run.
+    pub claims: Claims,
 }
 
 impl Perceiver {
@@ -76,12 +79,11 @@ impl Perceiver {
 
     fn draw(&self, name: &str, frame: &RgbdFrame, view: &View, from: PoseSource) -> Result<(), StageError> {
         let Some(folder) = &self.overlay else { return Ok(()) };
-        let plain: String =
-            name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect();
         let written =
             std::fs::create_dir_all(folder).map_err(|error| StageError::new(format!("{}: {error}", folder.display())));
         written?;
-        let path = folder.join(format!("{plain}.png"));
+        let path = folder.join(format!("{}.png", for_file_name(name)));
+        self.claims.claim(&path, name).map_err(|error| StageError::new(error.to_string()))?;
         write_file(&path, &overlay(frame, view, &caption(frame, from)), self.force)
             .map_err(|error| StageError::new(error.to_string()))
     }
@@ -117,21 +119,27 @@ fn stem(path: &Path) -> String {
 ///
 /// Frames may come from a recording, so the pictures are always handed over as files of their own.
 fn ask(external: &ExternalDetector, frame: &RgbdFrame, record: &Record) -> Result<Answer, StageError> {
-    let failed = |error: &dyn std::fmt::Display| StageError::new(format!("--detector: {error}"));
-    let folder = tempfile::tempdir().map_err(|error| failed(&error))?;
-    let (rgb, depth) = (folder.path().join("rgb.png"), folder.path().join("depth.png"));
+    let answer = external.detect(|number| handed(external.pictures(), frame, record, number));
+    answer.map_err(|error| StageError::new(error.to_string()))
+}
+
+/// The line that hands over a frame, with its number to be repeated; its pictures take the place of those of the frame
+/// before.
+fn handed(folder: &Path, frame: &RgbdFrame, record: &Record, number: u64) -> Result<String, String> {
+    let failed = |error: &dyn std::fmt::Display| error.to_string();
+    let (rgb, depth) = (folder.join("rgb.png"), folder.join("depth.png"));
     write_file(&depth, &frame.depth_png(), true).map_err(|error| failed(&error))?;
     let has_color = !frame.color.is_empty();
     if has_color {
         write_file(&rgb, &frame.color_png(), true).map_err(|error| failed(&error))?;
     }
-    let handed = FrameFiles { rgb: has_color.then_some(rgb), ..FrameFiles::of(frame, depth.clone(), depth) };
-    let handed = serde_json::to_value(&handed).map_err(|error| failed(&error))?;
+    let files = FrameFiles { rgb: has_color.then_some(rgb), ..FrameFiles::of(frame, depth.clone(), depth) };
+    let files = serde_json::to_value(&files).map_err(|error| failed(&error))?;
     // What the frame's line says of its pictures is of other files; everything else it says is handed on.
     let mut line = record.without(&["rgb", "depth", "mask", "camera_height", "camera_tilt"]);
-    handed.as_object().into_iter().flatten().for_each(|(key, value)| line.set(key, value));
-    let line = serde_json::to_string(&line).map_err(|error| failed(&error))?;
-    external.detect(&line).map_err(|error| StageError::new(error.to_string()))
+    line.set("number", &number);
+    files.as_object().into_iter().flatten().for_each(|(key, value)| line.set(key, value));
+    serde_json::to_string(&line).map_err(|error| failed(&error))
 }
 
 impl Stage for Perceiver {

@@ -55,6 +55,13 @@ pub enum Note {
     Lossy(String),
 }
 
+impl Note {
+    /// Done, but for what was lost.
+    pub fn of(lost: &[String]) -> Self {
+        if lost.is_empty() { Self::Done } else { Self::Lossy(lost.join("; ")) }
+    }
+}
+
 /// Why a stage could not do its work on one record.
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]

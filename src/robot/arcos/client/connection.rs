@@ -209,6 +209,12 @@ impl<L: Line> Client<L> {
         Ok(())
     }
 
+    /// Nothing is asked for any more: zero set-points go out at the next turn, whatever was told before. Time that
+    /// passed unheard, as in a process that was suspended, does not count.
+    pub(super) fn zero(&mut self) {
+        (self.ask, self.told, self.heard_at) = (None, (1, 1), self.line.now());
+    }
+
     /// The velocity that is safe now, mm/s and °/s.
     fn wanted(&mut self) -> (i32, i32) {
         let now = self.line.now();
