@@ -26,6 +26,7 @@
 //! | [`record`] | the record that grows from stage to stage | |
 //! | [`geometry`] | pose, polygon, grid | |
 //! | [`files`] | files that appear whole or not at all | |
+//! | [`limits`] | the most that is taken of anything from outside, and why | |
 
 pub mod behavior;
 pub mod catalogue;
@@ -39,6 +40,7 @@ pub mod frame;
 pub mod geometry;
 pub mod grounding;
 pub mod language;
+pub mod limits;
 pub mod map;
 pub mod perception;
 pub mod planning;

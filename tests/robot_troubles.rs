@@ -240,7 +240,7 @@ fn own_driver(served: &Served, line: Box<dyn Line + Send>, eyes: Box<dyn Eyes + 
     let said: Said = Arc::default();
     let hears = Arc::clone(&said);
     let tell = Arc::new(move |text: &str| hears.lock().expect("whole").push_str(&format!("{text}\n")));
-    (RealDriver::new(map, Options::default(), Outputs::default(), base, eyes, tell), said)
+    (RealDriver::new(map, Options::default(), Outputs::default(), Box::new(base), eyes, tell), said)
 }
 
 type Said = Arc<Mutex<String>>;

@@ -11,7 +11,7 @@ fn ground(text: &str) -> Grounding {
 
 fn pairs(grounding: &Grounding) -> Vec<(String, &'static str)> {
     let all = grounding.nodes.iter().flat_map(|node| &node.pairs);
-    all.map(|pair| (pair.reference.clone(), pair.direction.name())).collect()
+    all.map(|pair| (pair.reference.to_string(), pair.direction.name())).collect()
 }
 
 fn pair(reference: &str, direction: &'static str) -> (String, &'static str) {

@@ -10,8 +10,11 @@
 
 mod approach;
 mod beliefs;
+mod clearances;
+mod delivery;
 mod driving;
 mod executive;
+mod foresight;
 mod free_space;
 mod furniture;
 mod getting_clear;
@@ -21,6 +24,7 @@ mod localizer;
 pub mod motion;
 mod names;
 mod pilot;
+mod progress;
 mod regions;
 mod relation;
 mod route;
@@ -33,12 +37,12 @@ mod watcher;
 
 pub use approach::Ways;
 pub use beliefs::Beliefs;
-pub use driving::NARROW_M;
+pub use clearances::Clearances;
 pub use executive::{Executive, Options, Report};
 pub use furniture::Furniture;
 pub use journal::Journal;
 pub use localizer::Localizer;
-pub use pilot::{Halt, SWING_M, grid_of};
+pub use pilot::{Halt, grid_of};
 pub use relation::Place;
 pub use route::{length, route};
 pub use trial_record::{Run, object_of, plan_of, rounded};

@@ -22,7 +22,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::geometry::{Polygon, Pose, Vec2, cross, vec2, wrap_angle};
 use crate::map::RoomMap;
-use crate::record::{Action, Amount, Direction};
+use crate::record::{Action, Amount, Direction, Motion, Reference};
 
 /// A walk without a stated end, metres.
 const WALK_M: f64 = 2.0;
@@ -67,20 +67,18 @@ pub struct Landmark<'a> {
 /// `landmark` is the furniture an action names, when the robot knows where it stands.
 pub fn step_for(action: &Action, pose: Pose, room: &RoomFrame, landmark: Option<&Landmark>) -> Option<Step> {
     match action {
-        Action::Move { direction: Direction::Front, amount: Some(Amount::Until(what)) } if what != "wall" => {
+        Action::Move { motion: Motion::Ahead, amount: Some(Amount::Until(what)) } if *what != Reference::Wall => {
             Some(landmark.map_or_else(|| walk(pose, room, f64::INFINITY), |at| reach(pose, at)))
         }
-        Action::Move { direction: Direction::Front, amount } => {
-            Some(walk(pose, room, walk_length(amount.as_ref(), room)))
-        }
-        Action::Move { direction, amount } => Some(Step::Turn(turned(pose, room, *direction, amount.as_ref()))),
-        Action::Go { reference, direction, .. } => match reference.as_str() {
-            "room" => Some(room.part(pose, *direction)),
-            "wall" => Some(room.wall(pose, *direction)),
-            "door" => Some(room.part(pose, Direction::Front)),
-            _ => landmark.map(|at| pass(pose, at)),
+        Action::Move { motion: Motion::Ahead, amount } => Some(walk(pose, room, walk_length(amount.as_ref(), room))),
+        Action::Move { motion, amount } => Some(Step::Turn(turned(pose, room, *motion, amount.as_ref()))),
+        Action::Go { reference, direction, .. } => match reference {
+            Reference::Room => Some(room.part(pose, *direction)),
+            Reference::Wall => Some(room.wall(pose, *direction)),
+            Reference::Door => Some(room.part(pose, Direction::Front)),
+            Reference::Move | Reference::Robot | Reference::Thing(_) => landmark.map(|at| pass(pose, at)),
         },
-        Action::Enter { .. } | Action::Search { .. } | Action::Find { .. } => None,
+        Action::Enter { .. } | Action::Search { .. } | Action::Find { .. } | Action::Deliver { .. } => None,
     }
 }
 
@@ -100,11 +98,11 @@ fn walk(pose: Pose, room: &RoomFrame, metres: f64) -> Step {
     Step::Drive(Pose::new(to.x, to.y, pose.heading))
 }
 
-fn turned(pose: Pose, room: &RoomFrame, direction: Direction, amount: Option<&Amount>) -> f64 {
-    let sign = if direction == Direction::Right { -1.0 } else { 1.0 };
-    match (direction, amount) {
+fn turned(pose: Pose, room: &RoomFrame, motion: Motion, amount: Option<&Amount>) -> f64 {
+    let sign = if motion == Motion::TurnRight { -1.0 } else { 1.0 };
+    match (motion, amount) {
         (_, Some(Amount::Degrees(degrees))) => wrap_angle(pose.heading + sign * degrees.to_radians()),
-        (Direction::Left | Direction::Right, _) => room.nearest_axis(pose.heading + sign * FRAC_PI_2),
+        (Motion::TurnLeft | Motion::TurnRight, _) => room.nearest_axis(pose.heading + sign * FRAC_PI_2),
         _ => room.nearest_axis(pose.heading + PI),
     }
 }
@@ -203,7 +201,7 @@ impl RoomFrame {
             Direction::Right => {
                 self.at(here.x.max(near + BEFORE_FAR_WALL_M), three_quarters(left, right), heading - FRAC_PI_2)
             }
-            Direction::Central | Direction::Side | Direction::Between => self.at((near + far) / 2.0, here.y, heading),
+            _ => self.at((near + far) / 2.0, here.y, heading),
         }
     }
 
@@ -216,7 +214,7 @@ impl RoomFrame {
             Direction::Right => self.at(here.x, right + BEFORE_WALL_M, heading - FRAC_PI_2),
             Direction::Front => self.at(near + BEFORE_WALL_M, here.y, heading + PI),
             Direction::Back => self.at(far - BEFORE_WALL_M, here.y, heading),
-            Direction::Central | Direction::Side | Direction::Between => walk(pose, self, f64::INFINITY),
+            _ => walk(pose, self, f64::INFINITY),
         }
     }
 }
@@ -237,12 +235,13 @@ mod tests {
     }
 
     fn moved(direction: Direction, amount: Option<Amount>, pose: Pose) -> Step {
-        step_for(&Action::Move { direction, amount }, pose, &room(), None).expect("a motion")
+        let motion = Motion::from_direction(direction).expect("a motion");
+        step_for(&Action::Move { motion, amount }, pose, &room(), None).expect("a step")
     }
 
     fn gone(reference: &str, direction: Direction, landmark: Option<&Landmark>) -> Step {
         let action =
-            Action::Go { reference: reference.to_string(), direction, frame: Frame::Viewer, frames: Vec::new() };
+            Action::Go { reference: Reference::of(reference), direction, frame: Frame::Viewer, frames: Vec::new() };
         step_for(&action, room().entry, &room(), landmark).expect("a motion")
     }
 
@@ -271,7 +270,7 @@ mod tests {
 
     #[test]
     fn until_you_hit_the_wall_goes_to_the_wall_ahead() {
-        let until = Some(Amount::Until("wall".to_string()));
+        let until = Some(Amount::Until(Reference::Wall));
         assert_drives(moved(Direction::Front, until, Pose::new(1.0, 2.0, 0.0)), 4.0 - 0.71, 2.0, 0.0);
     }
 
@@ -346,7 +345,7 @@ mod tests {
     #[test]
     fn until_the_desk_ends_beside_the_desk_facing_it() {
         let desk = Polygon::rectangle(Pose::new(1.0, 4.0, 0.0), 1.0, 1.0);
-        let action = Action::Move { direction: Direction::Front, amount: Some(Amount::Until("desk".to_string())) };
+        let action = Action::Move { motion: Motion::Ahead, amount: Some(Amount::Until(Reference::of("desk"))) };
         let landmark = Landmark { footprint: &desk, towards: None };
         let step = step_for(&action, room().entry, &room(), Some(&landmark)).expect("a motion");
         assert_drives(step, 1.0, 2.8, FRAC_PI_2);

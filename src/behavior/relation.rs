@@ -44,7 +44,8 @@ pub fn angle_of(direction: Direction, frame: Frame, place: Place, yaw: Option<f6
         Direction::Back => Some(front + PI),
         Direction::Left => Some(front + left * FRAC_PI_2),
         Direction::Right => Some(front - left * FRAC_PI_2),
-        Direction::Central | Direction::Side | Direction::Between => None,
+        // Above and under are beside it on the floor plan; far is no direction.
+        _ => None,
     }
 }
 
@@ -59,7 +60,11 @@ pub fn to_furniture(
 ) -> Option<f64> {
     let gap = candidate.footprint.distance(&reference.footprint);
     match direction {
-        Direction::Side | Direction::Between => Some(halving(gap, BESIDE_HALVES_M)),
+        // What hangs over a thing or lies under it stands beside it as a robot sees it from above.
+        Direction::Side | Direction::Between | Direction::Above | Direction::Under => {
+            Some(halving(gap, BESIDE_HALVES_M))
+        }
+        Direction::Far => Some(1.0 - halving(gap, RELATED_HALVES_M)),
         Direction::Central => Some(halving((candidate.centre() - reference.centre()).norm(), BESIDE_HALVES_M)),
         _ => {
             let angle = angle_of(direction, frame, place, reference.detection.yaw)?;
@@ -81,7 +86,7 @@ pub fn to_robot(point: Vec2, direction: Direction, place: Place) -> f64 {
         Direction::Back => PI,
         Direction::Left => FRAC_PI_2,
         Direction::Right => -FRAC_PI_2,
-        Direction::Central | Direction::Side | Direction::Between => {
+        _ => {
             return halving(place.arrived.distance_to(point), RELATED_HALVES_M);
         }
     };
@@ -89,26 +94,37 @@ pub fn to_robot(point: Vec2, direction: Direction, place: Place) -> f64 {
     ((NOT_THERE_RAD - deviation) / (NOT_THERE_RAD - THERE_RAD)).clamp(0.0, 1.0)
 }
 
-/// How well a candidate fits a part of the room, a wall, or the door.
-pub fn to_room(reference: &str, candidate: &Furniture, direction: Direction, place: Place) -> f64 {
+/// How well a candidate fits "by the door".
+pub fn to_door(candidate: &Furniture, place: Place) -> f64 {
+    halving(place.room.entry.distance_to(candidate.centre()), RELATED_HALVES_M)
+}
+
+/// How well a candidate fits a wall of the room.
+pub fn to_wall(candidate: &Furniture, direction: Direction, place: Place) -> f64 {
+    let ((near, far), (right, left)) = place.room.extent();
+    let at = place.room.entry.to_local(candidate.centre());
+    match direction {
+        Direction::Side => halving(wall_gap(candidate, place), BESIDE_HALVES_M),
+        Direction::Left => halving(left - at.y, AT_WALL_HALVES_M),
+        Direction::Right => halving(at.y - right, AT_WALL_HALVES_M),
+        Direction::Back => halving(far - at.x, AT_WALL_HALVES_M),
+        Direction::Front => halving(at.x - near, AT_WALL_HALVES_M),
+        _ => to_room(candidate, direction, place),
+    }
+}
+
+/// How well a candidate fits a part of the room.
+pub fn to_room(candidate: &Furniture, direction: Direction, place: Place) -> f64 {
     let ((near, far), (right, left)) = place.room.extent();
     let at = place.room.entry.to_local(candidate.centre());
     let share = |from: f64, to: f64, value: f64| ((value - from) / (to - from)).clamp(0.0, 1.0);
-    match (reference, direction) {
-        ("door", _) => halving(place.room.entry.distance_to(candidate.centre()), RELATED_HALVES_M),
-        ("wall", Direction::Side) => halving(wall_gap(candidate, place), BESIDE_HALVES_M),
-        ("wall", Direction::Left) => halving(left - at.y, AT_WALL_HALVES_M),
-        ("wall", Direction::Right) => halving(at.y - right, AT_WALL_HALVES_M),
-        ("wall", Direction::Back) => halving(far - at.x, AT_WALL_HALVES_M),
-        ("wall", Direction::Front) => halving(at.x - near, AT_WALL_HALVES_M),
-        (_, Direction::Back) => share(near, far, at.x),
-        (_, Direction::Front) => share(far, near, at.x),
-        (_, Direction::Left) => share(right, left, at.y),
-        (_, Direction::Right) => share(left, right, at.y),
-        (_, Direction::Side) => halving(wall_gap(candidate, place), 2.0 * BESIDE_HALVES_M),
-        (_, Direction::Central | Direction::Between) => {
-            1.0 - (2.0 * share(near, far, at.x) - 1.0).abs().max((2.0 * share(right, left, at.y) - 1.0).abs())
-        }
+    match direction {
+        Direction::Back => share(near, far, at.x),
+        Direction::Front => share(far, near, at.x),
+        Direction::Left => share(right, left, at.y),
+        Direction::Right => share(left, right, at.y),
+        Direction::Side => halving(wall_gap(candidate, place), 2.0 * BESIDE_HALVES_M),
+        _ => 1.0 - (2.0 * share(near, far, at.x) - 1.0).abs().max((2.0 * share(right, left, at.y) - 1.0).abs()),
     }
 }
 

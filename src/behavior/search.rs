@@ -5,7 +5,7 @@ pub use super::wanted::Wanted;
 use super::{Beliefs, Furniture};
 use crate::geometry::vec2;
 use crate::language::{Class, Lexicon};
-use crate::record::{Direction, Frame, SearchPair};
+use crate::record::{Direction, Frame, Reference, SearchPair};
 
 /// What a reading in the first, second, third … frame counts: the likeliest is believed most.
 const FRAME_WEIGHTS: [f64; 4] = [1.0, 0.85, 0.75, 0.65];
@@ -57,7 +57,8 @@ struct Factor {
 
 /// The furniture not yet searched that could be meant, best first.
 pub fn rank(beliefs: &Beliefs, wanted: &Wanted, place: Place, lexicon: &Lexicon) -> Vec<Ranked> {
-    let candidates = candidates(beliefs, wanted.target.as_deref(), lexicon);
+    let mut candidates = candidates(beliefs, wanted.target.as_deref(), lexicon);
+    candidates.retain(|&index| !is_ruled_out(&beliefs.furniture[index], &wanted.not, lexicon));
     let mut ranked: Vec<Ranked> = candidates
         .iter()
         .filter(|&&index| !beliefs.furniture[index].searched)
@@ -82,6 +83,12 @@ fn candidates(beliefs: &Beliefs, target: Option<&str>, lexicon: &Lexicon) -> Vec
         .collect()
 }
 
+/// Whether a piece is of a category that was ruled out, by its own name: "not the desk" leaves the nightstand.
+fn is_ruled_out(furniture: &Furniture, not: &[String], lexicon: &Lexicon) -> bool {
+    let same = |category: &str, noun: &String| category == noun || lexicon.canonical(noun) == Some(category);
+    not.iter().any(|noun| furniture.belief(|category| same(category, noun)) > 0.5)
+}
+
 /// How sure the robot is that a piece is what the target's noun names.
 fn belief_in_target(furniture: &Furniture, target: Option<&str>, lexicon: &Lexicon) -> f64 {
     let class = target.and_then(|noun| lexicon.class_of(noun)).unwrap_or(Class::TableLike);
@@ -101,7 +108,7 @@ fn factors(
     let candidate = &beliefs.furniture[index];
     let mut factors: Vec<Factor> =
         wanted.pairs.iter().map(|pair| pair_factor(index, beliefs, pair, wanted.one_frame, place, lexicon)).collect();
-    let by_robot = wanted.pairs.iter().any(|pair| pair.pair.reference == "robot");
+    let by_robot = wanted.pairs.iter().any(|pair| pair.pair.reference == Reference::Robot);
     // A stated direction from the robot already says where to look.
     let sideways = if by_robot || wanted.nearest_first {
         1.0
@@ -153,10 +160,12 @@ fn pair_factor(
 ) -> Factor {
     let candidate = &beliefs.furniture[index];
     let direction = pair.pair.direction;
-    let value = match pair.pair.reference.as_str() {
-        "robot" | "move" => relation::to_robot(candidate.centre(), direction, place),
-        reference @ ("room" | "wall" | "door") => relation::to_room(reference, candidate, direction, place),
-        noun => return furniture_factor(index, beliefs, noun, pair, one_frame, place, lexicon),
+    let value = match &pair.pair.reference {
+        Reference::Robot | Reference::Move => relation::to_robot(candidate.centre(), direction, place),
+        Reference::Room => relation::to_room(candidate, direction, place),
+        Reference::Wall => relation::to_wall(candidate, direction, place),
+        Reference::Door => relation::to_door(candidate, place),
+        Reference::Thing(noun) => return furniture_factor(index, beliefs, noun, pair, one_frame, place, lexicon),
     };
     Factor { value, reading: format!("{} {value:.2}", pair.pair.phrase()) }
 }
@@ -245,9 +254,9 @@ pub fn blame(beliefs: &Beliefs, wanted: &Wanted, place: Place, lexicon: &Lexicon
         lexicon.class_of(noun).is_some_and(Class::is_furniture) && references(beliefs, noun, lexicon).is_empty()
     };
     wanted.pairs.iter().enumerate().find_map(|(i, pair)| {
-        let (phrase, reference) = (pair.pair.phrase(), pair.pair.reference.as_str());
-        if unseen(reference) {
-            return Some(format!("at pair {}, {phrase}: no {} was seen", i + 1, reference.replace('_', " ")));
+        let phrase = pair.pair.phrase();
+        if let Some(noun) = pair.pair.reference.thing().filter(|noun| unseen(noun)) {
+            return Some(format!("at pair {}, {phrase}: no {} was seen", i + 1, noun.replace('_', " ")));
         }
         let best = best(pair);
         (best < UNFULFILLED)
@@ -310,7 +319,8 @@ mod tests {
     }
 
     fn pair(reference: &str, direction: Direction, frame: Frame) -> SearchPair {
-        let pair = Pair { reference: reference.to_string(), direction, frame, and: None, amount: None, ordinal: None };
+        let pair =
+            Pair { reference: Reference::of(reference), direction, frame, and: None, amount: None, ordinal: None };
         SearchPair { frames: frames_to_try(&pair, Lexicon::embedded()), pair }
     }
 

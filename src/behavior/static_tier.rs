@@ -82,9 +82,9 @@ impl Executive<'_> {
 
     /// From one place of the room after the other, all that shows itself from there.
     fn look_elsewhere(&mut self, task: &Task, room: &RoomFrame) -> Result<Option<String>, Halt> {
-        for lookout in lookouts(self.pilot.grid(), room, self.pilot.pose().position()) {
+        for lookout in lookouts(self.pilot.grid(), room, self.pilot.pose().position(), self.pilot.ways().to_turn) {
             self.look_round_at(lookout)?;
-            let found = self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())?;
+            let found = self.try_candidates(task, room, self.pilot.pose(), &task.wanted.anything())?;
             if found.is_some() {
                 return Ok(found);
             }
@@ -99,7 +99,7 @@ impl Executive<'_> {
             return Ok(found);
         }
         self.pilot.because("nothing the words fit holds it; trying all other table-like furniture, nearest first");
-        self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())
+        self.try_candidates(task, room, self.pilot.pose(), &task.wanted.anything())
     }
 
     /// Goes where something like the object was seen, though never so that it could be told for sure.
@@ -126,7 +126,7 @@ impl Executive<'_> {
 
     /// While the best candidate is a guess, or a landmark that was named has not been seen, looks from elsewhere.
     fn look_further(&mut self, task: &Task, room: &RoomFrame, arrived: Pose) -> Result<(), Halt> {
-        for lookout in lookouts(self.pilot.grid(), room, arrived.position()) {
+        for lookout in lookouts(self.pilot.grid(), room, arrived.position(), self.pilot.ways().to_turn) {
             let place = Place { room, arrived };
             let ranked = rank(&self.pilot.beliefs, &task.wanted, place, self.lexicon);
             let is_plausible =
@@ -170,10 +170,9 @@ impl Executive<'_> {
     fn missing_reference(&self, wanted: &Wanted) -> Option<String> {
         let unseen = |noun: &str| {
             let is_furniture = self.lexicon.class_of(noun).is_some_and(|class| class != Class::Object);
-            let is_place = matches!(noun, "robot" | "move" | "room" | "wall" | "door");
-            is_furniture && !is_place && references(&self.pilot.beliefs, noun, self.lexicon).is_empty()
+            is_furniture && references(&self.pilot.beliefs, noun, self.lexicon).is_empty()
         };
-        let nouns = wanted.pairs.iter().map(|pair| pair.pair.reference.as_str());
+        let nouns = wanted.pairs.iter().filter_map(|pair| pair.pair.reference.thing());
         nouns.into_iter().find(|noun| unseen(noun)).map(|noun| noun.replace('_', " "))
     }
 

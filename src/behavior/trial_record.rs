@@ -19,7 +19,7 @@ pub struct Run {
 
 /// The plan of a record, made for this home.
 pub fn plan_of(record: &Record, map: &RoomMap) -> Result<Plan, StageError> {
-    let plan: Plan = record.require("plan", "pipe the record through `plan` first")?;
+    let plan: Plan = record.require_part("pipe the record through `plan` first")?;
     if plan.map != map.name {
         let (plan, home) = (&plan.map, &map.name);
         let message = format!("`plan`: made for the map `{plan}`, the robot is in `{home}`; give both the same --map");

@@ -1,6 +1,6 @@
 //! A trial as people read it: a text of lines that fit a terminal, and a row of a table.
 
-use crate::record::{Outcome, Record, Row, Shade, StageError, Trial};
+use crate::record::{Outcome, Record, Row, Shade, StageError, Trial, doubts_of};
 
 /// The longest line, characters.
 const WIDEST: usize = 100;
@@ -14,7 +14,7 @@ const STAGE_KEYS: [&str; 7] = ["id", "text", "tokens", "chunks", "grounding", "p
 /// # Errors
 /// When the record holds no trial, or one that cannot be read.
 pub fn text_of(record: &Record) -> Result<String, StageError> {
-    let trial: Trial = record.require("trial", "it is what `drive` adds")?;
+    let trial: Trial = record.require_part("it is what `drive` adds")?;
     let mut lines: Vec<String> = record.get::<String>("text")?.into_iter().collect();
     for action in &trial.actions {
         let (start, end) = (action.start_s.0, action.end_s.0);
@@ -26,18 +26,24 @@ pub fn text_of(record: &Record) -> Result<String, StageError> {
     let (metres, seconds) = (trial.distance_m.0, trial.duration_s.0);
     let end = format!("{} ({metres:.1} m, {seconds:.0} s, {} collisions)", trial.why, trial.collisions);
     lines.extend(wrapped(&format!("{}: ", trial.outcome.phrase()), &end, 2));
+    lines.extend(trial.delivered.iter().map(|delivery| {
+        let what = delivery.objects.join(" and ").replace('_', " ");
+        format!("delivered: {what} {}", delivery.to.phrase())
+    }));
+    lines.extend(doubts_of(record)?.into_iter().map(|doubt| format!("  !  {doubt}")));
     Ok(lines.join("\n"))
 }
 
 /// How a line of that text is shaded: reasons stand back, the end stands out.
 pub fn shade_of(line: &str) -> Shade {
     let ends = |outcome: &Outcome| line.starts_with(&format!("{}: ", outcome.phrase()));
-    let bad = [Outcome::NotFound, Outcome::Blocked, Outcome::Timeout, Outcome::Stopped, Outcome::LinkLost];
+    let bad =
+        [Outcome::NotFound, Outcome::Blocked, Outcome::Stuck, Outcome::Timeout, Outcome::Stopped, Outcome::LinkLost];
     if line.starts_with(&" ".repeat(INDENT + 1)) {
         Shade::Faint
     } else if [Outcome::Found, Outcome::Arrived].iter().any(ends) {
         Shade::Good
-    } else if bad.iter().any(ends) {
+    } else if bad.iter().any(ends) || line.starts_with("  !  ") {
         Shade::Bad
     } else {
         Shade::Plain
@@ -67,7 +73,7 @@ fn wrapped(head: &str, text: &str, indent: usize) -> Vec<String> {
 /// # Errors
 /// When the record holds no trial, or one that cannot be read.
 pub fn row_of(record: &Record) -> Result<Row, StageError> {
-    let trial: Trial = record.require("trial", "it is what `drive` adds")?;
+    let trial: Trial = record.require_part("it is what `drive` adds")?;
     let number = |value: crate::record::Rounded| value.value().to_string();
     let optional = |value: Option<String>| value.unwrap_or_default();
     let mut row = vec![("id".to_string(), record.id().unwrap_or_default())];

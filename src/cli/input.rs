@@ -6,28 +6,13 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{Failure, Source};
+use super::{Failure, Line, Source};
 
 /// Large enough that a batch keeps several threads busy, small enough to stay in cache.
 const BUFFER_BYTES: usize = 1 << 18;
 
 /// Larger files are not read once more to count their lines.
 const COUNTED_BYTES: u64 = 1 << 28;
-
-/// One line of input and where it came from.
-#[derive(Clone, Debug)]
-pub struct Line {
-    /// File name, or `<stdin>`.
-    pub file: Arc<str>,
-    /// 1-based.
-    pub number: usize,
-    /// Counted over all files, 1-based: the id of a plain line.
-    pub ordinal: usize,
-    /// The bytes without the line's end.
-    pub bytes: Vec<u8>,
-    /// Whether the line's end was there; a last line without one may have been cut.
-    pub terminated: bool,
-}
 
 /// The lines of a file that hold more than their end.
 fn count_lines(file: File) -> Option<u64> {

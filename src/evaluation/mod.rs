@@ -9,6 +9,7 @@ mod furniture;
 mod furniture_gold;
 mod furniture_table;
 mod gold;
+mod gold_reader;
 mod grounding;
 mod import;
 mod interval;
@@ -34,7 +35,8 @@ pub use compare::{Change, CompareError, Comparison, Measure, compare, comparison
 pub use furniture::{FurnitureScores, SeenGroup, score_furniture};
 pub use furniture_gold::{GoldFrame, GoldItem, gold_frames};
 pub use furniture_table::furniture_tables;
-pub use gold::{Gold, GoldError, Rules, read_gold};
+pub use gold::{Gold, GoldError, Rules};
+pub use gold_reader::read_gold;
 pub use grounding::{
     Bin, Disagreement, Experiment, GroundingScores, Kept, MeaningRates, Noise, SplitScores, Spread, TreeRates,
     evaluate_grounding, grounding_table, misheard,

@@ -67,11 +67,11 @@ impl<'h> Pipeline<'h> {
         let understood = self.understand(&gold.text);
         let trial = self.drive(&gold.id, &understood.plan).trial;
         let mut record = Record::from_text(&gold.id, &gold.text);
-        record.set("tokens", &understood.tokens);
-        record.set("chunks", &understood.chunks);
-        record.set("grounding", &understood.grounding);
-        record.set("plan", &understood.plan);
-        record.set("trial", &trial);
+        record.put(&understood.tokens);
+        record.put(&understood.chunks);
+        record.put(&understood.grounding);
+        record.put(&understood.plan);
+        record.put(&trial);
         // A record of our own types always serializes.
         serde_json::to_string(&record).unwrap_or_default()
     }

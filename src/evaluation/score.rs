@@ -123,7 +123,7 @@ struct Reached {
 }
 
 fn read(record: &Record) -> Result<Answer, crate::record::FieldError> {
-    Ok(Answer { chunks: record.get("chunks")?, grounding: record.get("grounding")?, trial: record.get("trial")? })
+    Ok(Answer { chunks: record.part()?, grounding: record.part()?, trial: record.part()? })
 }
 
 impl Scores {
@@ -153,7 +153,7 @@ impl Group {
             found.iter().for_each(|bracket| self.bracket_precision.count(gold.brackets.contains(bracket)));
             self.exact_trees.count(found == gold.brackets);
         }
-        if reached.grounding && gold.has_grounding {
+        if reached.grounding && gold.is_labelled() {
             self.add_grounding(gold, answer.grounding.as_ref());
         }
         if reached.trial {
@@ -204,7 +204,7 @@ mod tests {
         let gold = &own()[..2];
         let (_, chunks) = chunk_text(&gold[0].text);
         let mut record = Record::from_text(&gold[0].id, &gold[0].text);
-        record.set("chunks", &chunks);
+        record.put(&chunks);
         let line = serde_json::to_string(&record).expect("serializes");
         let scores = score(gold, &[line.clone(), line]).expect("scored");
         assert_eq!(scores.missing, [gold[1].id.clone()]);

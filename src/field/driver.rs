@@ -14,8 +14,7 @@ use crate::map::RoomMap;
 use crate::perception::{Eyes, View};
 use crate::record::{Note, PathPoint, Plan, Record, Row, Shade, Stage, StageError, Trial};
 use crate::recording::{About, Outputs, Recorder, Told};
-use crate::robot::MobileBase;
-use crate::robot::arcos::client::{ArcosBase, Stopper};
+use crate::robot::{MobileBase, RealBase, Remote};
 
 /// A trial that is told to stop has its log written within this.
 const WRITTEN_WITHIN: Duration = Duration::from_secs(3);
@@ -27,7 +26,7 @@ pub struct RealDriver {
     options: Options,
     outputs: Outputs,
     robot: Mutex<Robot>,
-    stopper: Stopper,
+    remote: Arc<dyn Remote>,
     busy: Arc<Busy>,
     tell: Tell,
     unheard: Box<dyn Fn() -> bool + Send + Sync>,
@@ -35,7 +34,7 @@ pub struct RealDriver {
 
 /// The robot with its eyes.
 struct Robot {
-    base: ArcosBase,
+    base: Box<dyn RealBase>,
     eyes: Box<dyn Eyes + Send>,
 }
 
@@ -60,14 +59,14 @@ impl Busy {
 
 /// Stops a real robot from a signal handler's thread, and waits until the trial's log is whole.
 pub struct Interrupter {
-    stopper: Stopper,
+    remote: Arc<dyn Remote>,
     busy: Arc<Busy>,
 }
 
 impl Interrupter {
     /// Stops the robot at once; returns when motors are off and the log is written.
     pub fn stop(&self) {
-        self.stopper.stop();
+        self.remote.stop();
         self.busy.wait();
     }
 }
@@ -78,18 +77,18 @@ impl RealDriver {
         map: RoomMap,
         options: Options,
         outputs: Outputs,
-        base: ArcosBase,
+        base: Box<dyn RealBase>,
         eyes: Box<dyn Eyes + Send>,
         tell: Tell,
     ) -> Self {
         tell(base.preflight());
-        let stopper = base.stopper();
+        let remote = base.remote();
         Self {
             map,
             options,
             outputs,
             robot: Mutex::new(Robot { base, eyes }),
-            stopper,
+            remote,
             busy: Arc::default(),
             tell,
             unheard: Box::new(|| false),
@@ -104,7 +103,7 @@ impl RealDriver {
 
     /// What a signal handler needs.
     pub fn interrupter(&self) -> Interrupter {
-        Interrupter { stopper: self.stopper.clone(), busy: Arc::clone(&self.busy) }
+        Interrupter { remote: Arc::clone(&self.remote), busy: Arc::clone(&self.busy) }
     }
 
     fn robot(&self) -> MutexGuard<'_, Robot> {
@@ -133,19 +132,19 @@ impl RealDriver {
             recorder,
             audience,
             silent: Silent,
-            stopper: self.stopper.clone(),
+            remote: Arc::clone(&self.remote),
             tell: self.tell.as_ref(),
             unheard: self.unheard.as_ref(),
         };
-        let _stops = StopInPanic(&self.stopper);
-        let mut run = run(&self.map, plan, self.options, base, eyes.as_mut(), &mut log);
+        let _stops = StopInPanic(self.remote.as_ref());
+        let mut run = run(&self.map, plan, self.options, base.as_mut(), eyes.as_mut(), &mut log);
         log.drain(base.time_s());
         let recorder = log.recorder.take();
         drop(log);
         narrator.iter().for_each(|narrator| narrator.end(&run.trial));
         let picture = eyes.frame().map(RgbdFrame::color_png);
         self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, id)?;
-        record.set("trial", &run.trial);
+        record.put(&run.trial);
         let line = serde_json::to_string(record).map_err(|error| failed(error.to_string()))?;
         if let Some(story) = story {
             let thumbnail = eyes.frame().map(RgbdFrame::thumbnail_png);
@@ -163,7 +162,7 @@ fn run(
     map: &RoomMap,
     plan: &Plan,
     options: Options,
-    base: &mut ArcosBase,
+    base: &mut dyn RealBase,
     eyes: &mut dyn Eyes,
     watcher: &mut dyn Watcher,
 ) -> Run {
@@ -184,6 +183,7 @@ fn run(
         spl: None,
         collisions: 0,
         min_clearance_m: None,
+        delivered: report.delivered,
         actions: report.journal.actions,
         path,
     };
@@ -191,7 +191,7 @@ fn run(
 }
 
 /// A program that panics steers no more: the robot is stopped, its motors switched off and the line closed at once.
-struct StopInPanic<'a>(&'a Stopper);
+struct StopInPanic<'a>(&'a dyn Remote);
 
 impl Drop for StopInPanic<'_> {
     fn drop(&mut self) {
@@ -206,7 +206,7 @@ struct Log<'a> {
     recorder: Option<Recorder>,
     audience: Several<'a>,
     silent: Silent,
-    stopper: Stopper,
+    remote: Arc<dyn Remote>,
     tell: &'a (dyn Fn(&str) + Send + Sync),
     unheard: &'a (dyn Fn() -> bool + Send + Sync),
 }
@@ -220,7 +220,7 @@ impl Log<'_> {
     }
 
     fn drain(&mut self, time_s: f64) {
-        for event in self.stopper.take_events() {
+        for event in self.remote.take_events() {
             (self.tell)(&event.text);
             self.inner().said(time_s, &format!("robot: {}", event.text));
         }
@@ -263,7 +263,7 @@ impl Watcher for Log<'_> {
 
     /// Someone says so, or what the robot does can no longer be told.
     fn wants_stop(&self) -> bool {
-        self.stopper.is_stopping() || self.recorder.as_ref().is_some_and(Recorder::has_failed) || (self.unheard)()
+        self.remote.is_stopping() || self.recorder.as_ref().is_some_and(Recorder::has_failed) || (self.unheard)()
     }
 }
 

@@ -1,15 +1,10 @@
 //! What lies between two shapes: whether they touch, and how far apart they are.
 
-use super::Shape;
+use super::shape::{Shape, boxes_meet};
 use crate::geometry::{Vec2, segment_distance, segments_touch};
 
 type Edge = (Vec2, Vec2);
 type Bounds = (Vec2, Vec2);
-
-/// Whether two boxes, each its lowest and highest corner, share a point.
-pub(super) fn boxes_meet((l1, h1): Bounds, (l2, h2): Bounds) -> bool {
-    l1.x <= h2.x && l2.x <= h1.x && l1.y <= h2.y && l2.y <= h1.y
-}
 
 fn bounds_of((a, b): Edge) -> Bounds {
     (a.inf(&b), a.sup(&b))

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use png::{ColorType, Transformations};
 
-use super::raster::{MOST_CELLS, Raster};
+use super::raster::Raster;
+use crate::limits::PICTURE_PIXELS;
 
 /// Reads a mask; the message of an error names the file.
 pub(super) fn read_mask(path: &Path, cell: f64) -> Result<Raster, String> {
@@ -23,9 +24,7 @@ fn decode(file: BufReader<File>) -> Result<(usize, usize, Vec<u8>), String> {
     let header = decoder.read_header_info().map_err(unreadable)?;
     let (width, height) = (header.width as usize, header.height as usize);
     // Before memory is taken for it.
-    if width.saturating_mul(height) > MOST_CELLS {
-        return Err(format!("{width} × {height} pixels are more than {MOST_CELLS}; scale the mask down"));
-    }
+    PICTURE_PIXELS.check(width.saturating_mul(height)).map_err(|error| format!("{error}; scale the mask down"))?;
     let mut reader = decoder.read_info().map_err(unreadable)?;
     let size = reader.output_buffer_size().ok_or("the image is too large for this machine")?;
     let mut pixels = vec![0; size];

@@ -20,6 +20,7 @@
 //! assert_eq!(histogram.values()[2], 0.0);
 //! ```
 
+mod between;
 mod degree;
 mod describe;
 mod frame;
@@ -31,6 +32,7 @@ mod main_direction;
 mod mask;
 mod name;
 pub mod polygon;
+mod quadrature;
 pub mod raster;
 mod relation;
 mod rose;
@@ -39,6 +41,7 @@ mod stage;
 mod surround;
 mod wording;
 
+pub use between::between;
 pub use degree::{DegreeOfTruth, degree_of_truth};
 pub use describe::Description;
 pub use frame::{Frame, Words};
@@ -49,5 +52,5 @@ pub use name::{ForceName, FrameName};
 pub use relation::Relation;
 pub use shape::{Shape, ShapeError};
 pub use stage::{Describer, Pictures};
-pub use surround::{between, surround};
+pub use surround::surround;
 pub use wording::{Assessment, Closeness};

@@ -1,6 +1,5 @@
 //! Areal objects: rings with holes, in several parts.
 
-use super::gap::boxes_meet;
 use crate::geometry::{Polygon, Vec2, cross, vec2};
 
 /// An areal object: outer rings counter-clockwise, holes clockwise.
@@ -162,6 +161,11 @@ impl From<&Polygon> for Shape {
     fn from(polygon: &Polygon) -> Self {
         Self { rings: vec![polygon.corners().to_vec()] }
     }
+}
+
+/// Whether two boxes, each its lowest and highest corner, share a point.
+pub(super) fn boxes_meet((l1, h1): (Vec2, Vec2), (l2, h2): (Vec2, Vec2)) -> bool {
+    l1.x <= h2.x && l2.x <= h1.x && l1.y <= h2.y && l2.y <= h1.y
 }
 
 #[cfg(test)]

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use super::between::betweenness;
 use super::input::{Extent, Object, object};
 use super::polygon::{histograms, hybrid};
 use super::raster::{Fuzzy, Pair, Raster};
 use super::rose::picture;
-use super::surround::betweenness;
 use super::{Description, Force, ForceName, Frame, FrameName, Histogram, Infinite, Relation};
 use crate::files::write_file;
 use crate::record::{DegreeOfTruth, Hof, HofForce, Note, Record, Stage, StageError};
@@ -157,12 +157,12 @@ impl Stage for Describer {
             },
         };
         self.draw(record, [&a, &b], &measured, &hof)?;
-        record.set("hof", &hof);
+        record.put(&hof);
         Ok(Note::Done)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
-        let hof: Hof = record.require("hof", "it is what `hof` adds")?;
+        let hof: Hof = record.require_part("it is what `hof` adds")?;
         Ok(hof.description)
     }
 }

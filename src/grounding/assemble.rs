@@ -2,7 +2,7 @@
 
 use super::meaning::{Meaning, pair};
 use super::words::ChunkWords;
-use crate::record::{Direction, Frame, Grounding, Node, ObjectSlot, Pair, RoomSlot, Tag};
+use crate::record::{Direction, Frame, Grounding, Node, ObjectSlot, Pair, Reference, RoomSlot, Tag};
 
 /// Puts the chunks' meanings together, in pre-order.
 ///
@@ -52,7 +52,7 @@ pub fn assemble(chunks: &[ChunkWords], meanings: &[Meaning]) -> Grounding {
 fn face(grounding: &mut Grounding) {
     let pairs = grounding.nodes.iter_mut().flat_map(|node| &mut node.pairs);
     for pair in pairs.filter(|pair| matches!(pair.frame, Frame::Viewer | Frame::Intrinsic)) {
-        let furniture = !matches!(pair.reference.as_str(), "room" | "wall" | "door");
+        let furniture = !pair.reference.is_of_building();
         if furniture && matches!(pair.direction, Direction::Left | Direction::Right) {
             pair.frame = Frame::Facing;
         }
@@ -68,7 +68,7 @@ fn take_held(grounding: &mut Grounding, chunks: &[ChunkWords], meanings: &[Meani
     let held = chunks.iter().zip(meanings).filter(|(chunk, _)| chunk.tag == Tag::Obrp);
     let Some(name) = held.filter_map(|(_, meaning)| meaning.object.as_ref()).next_back() else { return };
     for node in &mut grounding.nodes {
-        node.pairs.retain(|pair| pair.reference != *name);
+        node.pairs.retain(|pair| pair.reference.name() != *name);
     }
     grounding.object = Some(ObjectSlot { name: name.clone(), score: 0.8.into(), ..ObjectSlot::default() });
 }
@@ -93,7 +93,7 @@ fn is_group(tag: Tag) -> bool {
 }
 
 fn is_static(meaning: &Meaning) -> bool {
-    meaning.pairs.iter().all(|pair| pair.reference != "move")
+    meaning.pairs.iter().all(|pair| pair.reference != Reference::Move)
 }
 
 /// Whether the next chunk of the same parent that is no place is a target, within a clause about the object.

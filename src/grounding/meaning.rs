@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::record::{Amount, Direction, Frame, Pair, Tag};
+use crate::language::Lexicon;
+use crate::record::{Amount, Direction, Frame, Pair, Reference, Tag};
 
 /// What a chunk is about: step 1 of the published method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -58,21 +59,15 @@ pub struct Meaning {
 
 /// A pair in its likeliest frame.
 pub fn pair(reference: &str, direction: Direction) -> Pair {
-    Pair {
-        reference: reference.to_string(),
-        direction,
-        frame: likeliest_frame(reference),
-        and: None,
-        amount: None,
-        ordinal: None,
-    }
+    let reference = Reference::of(reference);
+    Pair { frame: likeliest_frame(&reference), reference, direction, and: None, amount: None, ordinal: None }
 }
 
-/// The hearer and motions are read from the robot; chairs and screens by their own front; all else as on entering.
-fn likeliest_frame(reference: &str) -> Frame {
+/// The hearer and motions are read from the robot, what has a front of its own by that, all else as on entering.
+fn likeliest_frame(reference: &Reference) -> Frame {
     match reference {
-        "move" | "robot" => Frame::Robot,
-        "chair" | "armchair" | "stool" | "tv" | "computer" | "monitor" | "laptop" => Frame::Intrinsic,
+        Reference::Move | Reference::Robot => Frame::Robot,
+        Reference::Thing(noun) if Lexicon::embedded().has_own_front(noun) => Frame::Intrinsic,
         _ => Frame::Viewer,
     }
 }

@@ -16,14 +16,14 @@ pub struct GroundStage {
 impl Stage for GroundStage {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
         let text: String = record.require("text", "a record needs the description under this key")?;
-        let chunks: Vec<Chunk> = record.require("chunks", "pipe the record through `chunk` first")?;
+        let chunks: Vec<Chunk> = record.require_part("pipe the record through `chunk` first")?;
         check_spans(&text, &chunks)?;
         let wants = self.grounder.wants_tokens();
-        let tokens: Vec<Token> = if wants { record.get("tokens")?.unwrap_or_default() } else { Vec::new() };
+        let tokens: Vec<Token> = if wants { record.part()?.unwrap_or_default() } else { Vec::new() };
         let mut grounding = self.grounder.ground(&text, &tokens, &chunks);
         let reply = self.answer.as_ref();
         let unused = reply.filter(|reply| !answer(&mut grounding, reply, self.grounder.lexicon()));
-        record.set("grounding", &grounding);
+        record.put(&grounding);
         Ok(unused.map_or(Note::Done, |reply| {
             Note::Lossy(format!("the answer \"{reply}\" names no room, side, furniture or object; say one of them"))
         }))
@@ -31,7 +31,7 @@ impl Stage for GroundStage {
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
         let text: String = record.require("text", "a record needs the description under this key")?;
-        let grounding: Grounding = record.require("grounding", "it is what `ground` adds")?;
+        let grounding: Grounding = record.require_part("it is what `ground` adds")?;
         Ok(table(&text, &grounding))
     }
 }

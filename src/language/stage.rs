@@ -21,14 +21,14 @@ impl Stage for Chunker {
         if !self.explain {
             chunks.iter_mut().for_each(forget_rules);
         }
-        record.set("tokens", &tokens);
-        record.set("chunks", &chunks);
+        record.put(&tokens);
+        record.put(&chunks);
         Ok(Note::Done)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
         let text: String = record.require("text", "a record needs the description under this key")?;
-        let chunks: Vec<Chunk> = record.require("chunks", "it is what `chunk` adds")?;
+        let chunks: Vec<Chunk> = record.require_part("it is what `chunk` adds")?;
         Ok(draw_tree(&text, &chunks))
     }
 }

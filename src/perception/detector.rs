@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::describe::describe;
-use super::floor_grid::{FloorGrid, project};
+use super::floor_grid::FloorGrid;
 use super::footprint::Footprint;
 use super::forest::Forest;
 use super::front::{Facing, Hidden, facings, hidden_sides};
@@ -12,12 +12,13 @@ use super::joining::Joining;
 use super::measures::{Measured, measure};
 use super::model::{CATEGORIES, Model, NOTHING};
 use super::objects::{may_hold, sightings};
+use super::parts::{Parts, room};
 use super::patches::patches;
-use super::points::{Points, points};
+use super::points::Points;
 use super::reconsider::reconsider;
-use super::segment::{Segment, Segments, segments};
+use super::segment::{Segment, segments};
 use super::tabletop::things;
-use super::walls::{Wall, furniture_cells, walls};
+use super::walls::{Wall, furniture_cells};
 use super::{ObjectSighting, View};
 use crate::catalogue::OBJECTS;
 use crate::catalogue::{self, Orientation};
@@ -47,22 +48,6 @@ impl Default for Detector {
     fn default() -> Self {
         Self { model: Model::shipped() }
     }
-}
-
-/// One frame taken apart.
-pub(crate) struct Parts {
-    pub points: Points,
-    pub grid: FloorGrid,
-    pub walls: Vec<Wall>,
-    pub segments: Segments,
-}
-
-/// A frame's points, floor and walls.
-pub(crate) fn room(frame: &RgbdFrame, map: Option<&RoomMap>) -> (Points, FloorGrid, Vec<Wall>) {
-    let points = points(frame);
-    let grid = project(frame, &points);
-    let walls = walls(&grid, &points, map);
-    (points, grid, walls)
 }
 
 /// A frame as far as it can be read without a model.
@@ -208,6 +193,12 @@ fn detection(measured: &Measured, whole: Footprint, chances: &[f32], best: usize
         attributes,
         why,
     }
+}
+
+/// How sure the eyes are that it is furniture at all: the category's chance among all over that among furniture; sure
+/// when no scores tell.
+pub fn furniture_chance(detection: &Detection) -> f64 {
+    detection.scores.get(&detection.category).map_or(1.0, |score| detection.confidence / score.max(1e-9))
 }
 
 /// Of two that stand in the same place, the surer.

@@ -1,7 +1,7 @@
 //! Pieces from a true segmentation, in place of the detector's own.
 
-use super::detector::{Parts, room};
 use super::floor_grid::{FloorGrid, NOWHERE};
+use super::parts::{Parts, room};
 use super::patches::Sums;
 use super::points::{Points, STRIDE};
 use super::segment::segments;

@@ -19,6 +19,7 @@ pub(crate) mod floor;
 pub(crate) mod floor_grid;
 pub(crate) mod footprint;
 pub(crate) mod forest;
+mod frame_error;
 mod frame_files;
 pub(crate) mod front;
 mod fusion;
@@ -28,6 +29,7 @@ pub(crate) mod measures;
 pub(crate) mod model;
 pub mod objects;
 mod overlay;
+pub(crate) mod parts;
 pub(crate) mod patches;
 mod picture_files;
 pub(crate) mod points;
@@ -37,17 +39,22 @@ pub(crate) mod scenes;
 pub(crate) mod segment;
 mod stage;
 pub(crate) mod tabletop;
-mod upright;
+pub(crate) mod upright;
 pub(crate) mod walls;
 
-pub use detector::Detector;
+pub use detector::{Detector, furniture_chance};
 pub use external::{ExternalDetector, ExternalError};
-pub use frame_files::{FrameError, FrameFiles, check};
+pub use frame_error::FrameError;
+pub use frame_files::{FrameFiles, check};
 pub use fusion::FurnitureMap;
 pub use model::Model;
 pub use overlay::overlay;
 pub use scenes::{GridMap, SceneRecord, SceneView, Scenes, scene_of};
 pub use stage::{Perceiver, text_line};
+pub use upright::{CAMERA_HEIGHTS_M, CAMERA_TILTS_DEG, Depths, NoPose, Told, camera_over_floor};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::frame::RgbdFrame;
 use crate::geometry::Pose;
@@ -84,7 +91,7 @@ pub struct View {
 }
 
 /// A small object in the picture.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ObjectSighting {
     /// What it is taken for.
     pub name: String,

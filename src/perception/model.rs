@@ -31,10 +31,14 @@ pub struct Model {
 impl Model {
     /// The model that is shipped; `evaluate train` makes it anew.
     pub fn shipped() -> Arc<Self> {
-        static SHIPPED: LazyLock<Arc<Model>> = LazyLock::new(|| {
-            // Embedded and tested: it cannot fail.
-            Arc::new(Model::read(include_bytes!("furniture.model")).unwrap_or_default())
-        });
+        static SHIPPED: LazyLock<Arc<Model>> =
+            LazyLock::new(|| {
+                // An empty model would see nothing, and say nothing of it.
+                let model = Model::read(include_bytes!("furniture.model"));
+                Arc::new(model.unwrap_or_else(|| {
+                    panic!("the embedded furniture.model is of another version; run `evaluate train`")
+                }))
+            });
         SHIPPED.clone()
     }
 

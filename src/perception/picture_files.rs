@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::frame_files::FrameError;
+use super::frame_error::FrameError;
 use crate::frame::{Picture, decode_color, decode_depth};
 
 /// Pixels across and down, and the pixels row by row.

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::external::ExternalDetector;
-use super::{Detector, FrameFiles, View, check, overlay};
+use super::{Detector, FrameFiles, ObjectSighting, Told, View, check, furniture_chance, overlay};
 use crate::files::write_file;
 use crate::frame::RgbdFrame;
 use crate::map::RoomMap;
-use crate::record::{Detection, Note, Record, Stage, StageError};
+use crate::record::{CameraPose, Detection, Note, PoseSource, Record, Rounded, Stage, StageError};
 
 /// Finds furniture in frames, from files or from anywhere else.
 #[derive(Clone, Debug, Default)]
@@ -21,6 +21,10 @@ pub struct Perceiver {
     pub external: Option<Arc<ExternalDetector>>,
     /// The rooms, when they are known.
     pub map: Option<RoomMap>,
+    /// What is known of the camera of frames that do not tell where it was.
+    pub told: Told,
+    /// What is less surely furniture than this is left out.
+    pub least_confidence: f64,
     /// Where to draw what was found.
     pub overlay: Option<PathBuf>,
     /// Whether drawings may replace older ones.
@@ -28,30 +32,34 @@ pub struct Perceiver {
 }
 
 impl Perceiver {
-    /// What a frame shows, from whatever source it comes; `name` is that of its drawing.
-    pub fn look(&self, name: &str, frame: &RgbdFrame) -> Result<View, StageError> {
+    /// What a frame shows, from whatever source it comes; `name` is that of its drawing, `from` says how its pose is known.
+    pub fn look(&self, name: &str, frame: &RgbdFrame, from: PoseSource) -> Result<View, StageError> {
         check(frame).map_err(|error| StageError::new(error.to_string()))?;
         let view = match &self.external {
             None => self.detector.detect(frame, self.map.as_ref()),
             Some(external) => external_view(external, frame)?,
         };
-        self.draw(name, frame, &view)?;
+        let furniture = view.furniture.into_iter().filter(|piece| is_surely(piece, self.least_confidence)).collect();
+        let view = View { furniture, ..view };
+        self.draw(name, frame, &view, from)?;
         Ok(view)
     }
 
-    /// Adds what a frame from a log shows to its record.
-    pub fn see(&self, frame: &RgbdFrame, record: &mut Record) -> Result<Note, StageError> {
+    /// Adds what a frame from a log shows to its record; `from` says how its pose is known.
+    pub fn see(&self, frame: &RgbdFrame, from: PoseSource, record: &mut Record) -> Result<Note, StageError> {
         let name = record.get::<String>("frame")?.or_else(|| record.id());
-        self.add(name.as_deref().unwrap_or("frame"), frame, record)
+        self.add(name.as_deref().unwrap_or("frame"), frame, from, record)
     }
 
-    fn add(&self, name: &str, frame: &RgbdFrame, record: &mut Record) -> Result<Note, StageError> {
-        let view = self.look(name, frame)?;
-        record.set("detections", &view.furniture);
+    fn add(&self, name: &str, frame: &RgbdFrame, from: PoseSource, record: &mut Record) -> Result<Note, StageError> {
+        let view = self.look(name, frame, from)?;
+        record.set("camera", &CameraPose::new(frame.world_from_camera, from));
+        record.put(&view.furniture);
+        record.set("objects", &view.objects.into_iter().map(rounded).collect::<Vec<_>>());
         Ok(Note::Done)
     }
 
-    fn draw(&self, name: &str, frame: &RgbdFrame, view: &View) -> Result<(), StageError> {
+    fn draw(&self, name: &str, frame: &RgbdFrame, view: &View, from: PoseSource) -> Result<(), StageError> {
         let Some(folder) = &self.overlay else { return Ok(()) };
         let plain: String =
             name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect();
@@ -59,19 +67,31 @@ impl Perceiver {
             std::fs::create_dir_all(folder).map_err(|error| StageError::new(format!("{}: {error}", folder.display())));
         written?;
         let path = folder.join(format!("{plain}.png"));
-        write_file(&path, &overlay(frame, view), self.force).map_err(|error| StageError::new(error.to_string()))
+        write_file(&path, &overlay(frame, view, &caption(frame, from)), self.force)
+            .map_err(|error| StageError::new(error.to_string()))
     }
 
     /// The frame a record names.
-    pub fn frame_of(&self, record: &Record) -> Result<(String, RgbdFrame), StageError> {
+    pub fn frame_of(&self, record: &Record) -> Result<(String, RgbdFrame, PoseSource), StageError> {
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
         let files: FrameFiles = serde_json::from_str(&line).map_err(|error| {
             let what = crate::record::message_without_position(&error);
             StageError::new(format!("{what}; a frame needs depth, fx, fy, cx, cy and depth_unit_m"))
         })?;
-        let frame = files.load(&self.folder).map_err(|error| StageError::new(error.to_string()))?;
-        Ok((files.frame.unwrap_or_else(|| stem(&files.depth)), frame))
+        let (frame, from) = files.load(&self.folder, self.told).map_err(|error| StageError::new(error.to_string()))?;
+        Ok((files.frame.unwrap_or_else(|| stem(&files.depth)), frame, from))
     }
+}
+
+/// Whether it is at least so surely furniture; where no scores tell, its confidence has to.
+fn is_surely(piece: &Detection, least: f64) -> bool {
+    let chance = if piece.scores.is_empty() { piece.confidence } else { furniture_chance(piece) };
+    chance >= least
+}
+
+fn rounded(object: ObjectSighting) -> ObjectSighting {
+    let [x, y] = [object.x, object.y].map(|value| Rounded(value).value());
+    ObjectSighting { x, y, ..object }
 }
 
 fn stem(path: &Path) -> String {
@@ -93,16 +113,38 @@ fn external_view(external: &ExternalDetector, frame: &RgbdFrame) -> Result<View,
 
 impl Stage for Perceiver {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
-        let (name, frame) = self.frame_of(record)?;
-        self.add(&name, &frame, record)
+        let (name, frame, from) = self.frame_of(record)?;
+        self.add(&name, &frame, from, record)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
-        let detections: Vec<Detection> = record.require("detections", "it is what `perceive` adds")?;
-        let mut lines: Vec<String> = record.get::<String>("frame")?.into_iter().collect();
-        lines.extend(detections.iter().map(text_line));
-        Ok(lines.join("\n"))
+        let detections: Vec<Detection> = record.require_part("it is what `perceive` adds")?;
+        let objects: Vec<ObjectSighting> = record.get("objects")?.unwrap_or_default();
+        let frame = record.get::<String>("frame")?.or_else(|| record.id()).unwrap_or_default();
+        let small = |o: &ObjectSighting| {
+            let name = if o.recognisable { o.name.clone() } else { format!("{}?", o.name) };
+            format!("  {name:12} a small thing at ({:.2}, {:.2})", o.x, o.y)
+        };
+        let mut lines: Vec<String> = detections.iter().map(text_line).chain(objects.iter().map(small)).collect();
+        if lines.is_empty() {
+            lines.push("  nothing".to_string());
+        }
+        Ok(lines.into_iter().map(|line| format!("{frame}{line}")).collect::<Vec<_>>().join("\n"))
     }
+}
+
+/// Where the camera was, for people.
+fn caption(frame: &RgbdFrame, from: PoseSource) -> String {
+    let CameraPose { height, tilt, roll, .. } = CameraPose::new(frame.world_from_camera, from);
+    let known = match from {
+        PoseSource::Record => "as the record says",
+        PoseSource::Transforms => "by the log's transforms",
+        PoseSource::AssumedMount => "as usual on a robot",
+        PoseSource::Floor => "by the floor",
+        PoseSource::Gravity => "by the height told and what is upright",
+        PoseSource::Told => "as told",
+    };
+    format!("camera {height:.2} m up, {tilt:.0} deg down, roll {roll:.0} deg, {known}")
 }
 
 /// One piece on a line, for people.

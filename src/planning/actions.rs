@@ -2,10 +2,10 @@
 
 use super::frames_to_try;
 use crate::language::Lexicon;
-use crate::record::{Action, Amount, Direction, Frame, Node, Pair, SearchPair};
+use crate::record::{Action, Amount, Direction, Frame, Motion, Node, Pair, Reference, SearchPair};
 
 /// The actions for the nodes, ending in exactly one search with the object's search behind it.
-pub fn actions_for(nodes: &[Node], object: Option<&str>, lexicon: &Lexicon) -> Vec<Action> {
+pub fn actions_for(nodes: &[Node], objects: &[Option<String>], not: &[String], lexicon: &Lexicon) -> Vec<Action> {
     let nodes = merge_repeated_targets(nodes, lexicon);
     let last_search = nodes.iter().rposition(|node| node.target.is_some());
     let mut actions = Vec::new();
@@ -13,8 +13,8 @@ pub fn actions_for(nodes: &[Node], object: Option<&str>, lexicon: &Lexicon) -> V
         let is_last = last_search.is_none_or(|last| i >= last);
         actions.extend(actions_of_node(node, is_last, i + 1 == nodes.len(), lexicon));
     }
-    gather_searches(&mut actions);
-    actions.push(Action::Find { object: object.map(str::to_string) });
+    gather_searches(&mut actions, not);
+    actions.extend(objects.iter().map(|object| Action::Find { object: object.clone() }));
     actions
 }
 
@@ -24,7 +24,9 @@ fn merge_repeated_targets(nodes: &[Node], lexicon: &Lexicon) -> Vec<Node> {
     for node in nodes {
         let same = |other: &Node| same_kind(other.target.as_deref(), node.target.as_deref(), lexicon);
         match merged.last_mut() {
-            Some(last) if node.target.is_some() && same(last) && node.pairs.iter().all(|p| p.reference != "move") => {
+            Some(last)
+                if node.target.is_some() && same(last) && node.pairs.iter().all(|p| p.reference != Reference::Move) =>
+            {
                 last.pairs.extend(node.pairs.iter().filter(|p| !last.pairs.contains(p)).cloned().collect::<Vec<_>>());
                 last.attributes.extend(node.attributes.iter().cloned());
             }
@@ -53,7 +55,7 @@ fn actions_of_node(node: &Node, is_last: bool, ends_here: bool, lexicon: &Lexico
     }
     // On the way to a target the last "go forward" ends at the target itself.
     if node.target.is_some() && is_last {
-        while matches!(actions.last(), Some(Action::Move { direction: Direction::Front, amount: None })) {
+        while matches!(actions.last(), Some(Action::Move { motion: Motion::Ahead, amount: None })) {
             actions.pop();
         }
     }
@@ -64,6 +66,7 @@ fn actions_of_node(node: &Node, is_last: bool, ends_here: bool, lexicon: &Lexico
             attributes: node.attributes.clone(),
             ordinal: node.ordinal,
             pairs: searched,
+            not: Vec::new(),
         }),
         _ => {}
     }
@@ -72,29 +75,31 @@ fn actions_of_node(node: &Node, is_last: bool, ends_here: bool, lexicon: &Lexico
 
 /// The motion a pair asks for, or nothing when it says where the target is.
 fn motion(pair: &Pair, has_target: bool, ends_here: bool, lexicon: &Lexicon) -> Option<Action> {
-    match (pair.reference.as_str(), pair.direction) {
-        ("move", direction) => Some(Action::Move { direction, amount: pair.amount.clone() }),
-        ("robot", _) => None,
+    match (&pair.reference, pair.direction) {
+        (Reference::Move, direction) => {
+            let motion = Motion::from_direction(direction)?;
+            Some(Action::Move { motion, amount: pair.amount.clone() })
+        }
+        (Reference::Robot, _) => None,
         _ if has_target => None,
-        ("wall", Direction::Side) => {
-            Some(Action::Move { direction: Direction::Front, amount: Some(Amount::Until("wall".to_string())) })
+        (Reference::Wall, Direction::Side) => {
+            Some(Action::Move { motion: Motion::Ahead, amount: Some(Amount::Until(Reference::Wall)) })
         }
         // The last place said is where to look; one said before other steps is gone to.
         _ if ends_here => None,
-        (_, direction) => Some(go(&pair.reference, direction, pair, lexicon)),
+        _ => Some(go(pair, lexicon)),
     }
 }
 
-fn go(reference: &str, direction: Direction, pair: &Pair, lexicon: &Lexicon) -> Action {
-    Action::Go { reference: reference.to_string(), direction, frame: pair.frame, frames: frames_to_try(pair, lexicon) }
+fn go(pair: &Pair, lexicon: &Lexicon) -> Action {
+    let (reference, direction, frame) = (pair.reference.clone(), pair.direction, pair.frame);
+    Action::Go { reference, direction, frame, frames: frames_to_try(pair, lexicon) }
 }
 
 /// Furniture on the way: it is passed, not searched.
 fn waypoint(target: &str, lexicon: &Lexicon) -> Action {
-    let direction = Direction::Side;
-    let pair =
-        Pair { reference: target.to_string(), direction, frame: Frame::Viewer, and: None, amount: None, ordinal: None };
-    go(target, direction, &pair, lexicon)
+    let (reference, direction) = (Reference::of(target), Direction::Side);
+    go(&Pair { reference, direction, frame: Frame::Viewer, and: None, amount: None, ordinal: None }, lexicon)
 }
 
 fn search_pair(pair: &Pair, lexicon: &Lexicon) -> SearchPair {
@@ -102,11 +107,11 @@ fn search_pair(pair: &Pair, lexicon: &Lexicon) -> SearchPair {
 }
 
 /// One search at the end: hints said before the target ("on the right, on the table") join the target's own pairs.
-fn gather_searches(actions: &mut Vec<Action>) {
+fn gather_searches(actions: &mut Vec<Action>, not: &[String]) {
     let mut gathered: Vec<SearchPair> = Vec::new();
     let mut wanted: (Option<String>, Vec<String>, Option<u32>) = (None, Vec::new(), None);
     actions.retain(|action| match action {
-        Action::Search { target, attributes, ordinal, pairs } => {
+        Action::Search { target, attributes, ordinal, pairs, .. } => {
             gathered.extend(pairs.iter().cloned());
             if target.is_some() {
                 wanted = (target.clone(), attributes.clone(), *ordinal);
@@ -116,7 +121,7 @@ fn gather_searches(actions: &mut Vec<Action>) {
         _ => true,
     });
     let (target, attributes, ordinal) = wanted;
-    actions.push(Action::Search { target, attributes, ordinal, pairs: gathered });
+    actions.push(Action::Search { target, attributes, ordinal, pairs: gathered, not: not.to_vec() });
 }
 
 #[cfg(test)]
@@ -125,7 +130,7 @@ mod tests {
 
     fn pair(reference: &str, direction: Direction) -> Pair {
         let frame = if matches!(reference, "move" | "robot") { Frame::Robot } else { Frame::Viewer };
-        Pair { reference: reference.to_string(), direction, frame, and: None, amount: None, ordinal: None }
+        Pair { reference: Reference::of(reference), direction, frame, and: None, amount: None, ordinal: None }
     }
 
     fn node(target: Option<&str>, pairs: Vec<Pair>) -> Node {
@@ -157,7 +162,7 @@ mod tests {
             node(Some("table"), vec![pair("couch", Direction::Back)]),
         ];
         assert_eq!(names(&nodes), ["go", "search", "find"]);
-        let actions = actions_for(&nodes, None, Lexicon::embedded());
+        let actions = actions_for(&nodes, &[None], &[], Lexicon::embedded());
         assert!(matches!(&actions[1], Action::Search { target: Some(_), pairs, .. } if pairs.len() == 2));
     }
 

@@ -1,6 +1,6 @@
 //! In which frames of reference a relation is tried, likeliest first.
 
-use crate::language::{Class, Lexicon};
+use crate::language::Lexicon;
 use crate::record::{Frame, Pair};
 
 /// The frames to try for a pair; empty where only its own makes sense.
@@ -10,12 +10,11 @@ use crate::record::{Frame, Pair};
 /// one all 50: a relation to furniture can be read in all three. Chairs are
 /// read by their own front first (Huo et al. 2014, section IV).
 pub fn frames_to_try(pair: &Pair, lexicon: &Lexicon) -> Vec<Frame> {
-    if matches!(pair.reference.as_str(), "move" | "robot" | "room" | "wall" | "door") {
-        return Vec::new();
-    }
-    let mut frames = match lexicon.class_of(&pair.reference) {
-        Some(Class::Seat) => vec![Frame::Intrinsic, Frame::Viewer, Frame::Facing],
-        _ => vec![Frame::Viewer, Frame::Intrinsic, Frame::Facing],
+    let Some(noun) = pair.reference.thing() else { return Vec::new() };
+    let mut frames = if lexicon.has_own_front(noun) {
+        vec![Frame::Intrinsic, Frame::Viewer, Frame::Facing]
+    } else {
+        vec![Frame::Viewer, Frame::Intrinsic, Frame::Facing]
     };
     // What was grounded from the words comes first, whatever is usual.
     if let Some(at) = frames.iter().position(|frame| *frame == pair.frame) {
@@ -29,11 +28,11 @@ pub fn frames_to_try(pair: &Pair, lexicon: &Lexicon) -> Vec<Frame> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::Direction;
+    use crate::record::{Direction, Reference};
 
     fn frames(reference: &str, frame: Frame) -> Vec<Frame> {
         let pair = Pair {
-            reference: reference.to_string(),
+            reference: Reference::of(reference),
             direction: Direction::Left,
             frame,
             and: None,

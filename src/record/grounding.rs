@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Rounded, Tag};
+use super::{Direction, Frame, Motion, Reference, Rounded, Tag};
 
 /// What the robot understood: room, RDT nodes and object of the best reading.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -14,6 +14,18 @@ pub struct Grounding {
     pub object: Option<ObjectSlot>,
     /// Reference–direction–target nodes, in the order spoken.
     pub nodes: Vec<Node>,
+    /// Further objects of the same errand.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub also: Vec<ObjectSlot>,
+    /// Where the objects shall be brought or put; absent when nowhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub destination: Option<Destination>,
+    /// What is ruled out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not: Vec<RuledOut>,
+    /// Further errands, in the order said.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub then: Vec<Grounding>,
     /// Confidence in the best whole reading, 0 to 1.
     #[serde(default)]
     pub score: Rounded,
@@ -38,6 +50,63 @@ pub struct Grounding {
     /// Per chunk: what it was taken for and why.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub why: Vec<Why>,
+}
+
+/// Where objects shall be brought or put.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Destination {
+    /// Who shall have them: `speaker`, or a name or description in lower_snake.
+    pub recipient: Option<String>,
+    /// The room.
+    pub room: Option<String>,
+    /// Noun of the furniture or container, in lower_snake.
+    pub target: Option<String>,
+}
+
+impl Destination {
+    /// Whether nothing was said of it.
+    pub fn is_empty(&self) -> bool {
+        self.recipient.is_none() && self.room.is_none() && self.target.is_none()
+    }
+
+    /// The goal in words: "to the counter in the kitchen", "back to the speaker".
+    pub fn phrase(&self) -> String {
+        let spoken = |name: &String| name.replace('_', " ");
+        let mut parts: Vec<String> = Vec::new();
+        match self.recipient.as_deref() {
+            Some("speaker") => parts.push("back to the speaker".to_string()),
+            Some(name) => parts.push(format!("to {}", name.replace('_', " "))),
+            None => {}
+        }
+        parts.extend(self.target.as_ref().map(|target| format!("to the {}", spoken(target))));
+        parts.extend(self.room.as_ref().map(|room| {
+            if self.target.is_none() && self.recipient.is_none() {
+                format!("to the {}", spoken(room))
+            } else {
+                format!("in the {}", spoken(room))
+            }
+        }));
+        parts.join(" ")
+    }
+}
+
+/// What `ground` doubted, for stages that come later: its warnings and its question.
+///
+/// # Errors
+/// When the record's `grounding` is none.
+pub fn doubts_of(record: &super::Record) -> Result<Vec<String>, super::FieldError> {
+    let grounding: Option<Grounding> = record.get("grounding")?;
+    Ok(grounding.map_or_else(Vec::new, |grounding| {
+        let further = grounding.then.into_iter().flat_map(|next| next.warnings);
+        grounding.warnings.into_iter().chain(further).chain(grounding.question).collect()
+    }))
+}
+
+/// Something that is ruled out.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct RuledOut {
+    /// A noun or the name of a room, in lower_snake.
+    pub name: String,
 }
 
 /// A whole reading that lost to the best one.
@@ -104,16 +173,18 @@ pub struct Node {
 
 /// A reference and the direction from it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "PairAsWritten")]
+#[schemars(!try_from)]
 pub struct Pair {
-    /// `move`, `room`, `wall`, `door`, `robot`, or a noun in lower_snake.
-    pub reference: String,
+    /// What the direction is told from.
+    pub reference: Reference,
     /// Where, seen from the reference.
     pub direction: Direction,
     /// The axes in which the direction is read; the likeliest when there are several.
     pub frame: Frame,
-    /// The second reference of `between`.
+    /// The second reference of `between`; without it, between several things of the first one's noun.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub and: Option<String>,
+    pub and: Option<Reference>,
     /// How far, or until what.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amount: Option<Amount>,
@@ -122,85 +193,50 @@ pub struct Pair {
     pub ordinal: Option<u32>,
 }
 
+/// A pair as it stands in a record, before it is seen whether it can be meant.
+#[derive(Deserialize)]
+struct PairAsWritten {
+    reference: Reference,
+    direction: Direction,
+    frame: Frame,
+    #[serde(default)]
+    and: Option<Reference>,
+    #[serde(default)]
+    amount: Option<Amount>,
+    #[serde(default)]
+    ordinal: Option<u32>,
+}
+
+impl TryFrom<PairAsWritten> for Pair {
+    type Error = String;
+
+    fn try_from(pair: PairAsWritten) -> Result<Self, String> {
+        let PairAsWritten { reference, direction, frame, and, amount, ordinal } = pair;
+        if reference == Reference::Move && Motion::from_direction(direction).is_none() {
+            return Err(format!(
+                "a move goes front, or turns left, right or back; `{}` is none of them",
+                direction.name()
+            ));
+        }
+        if direction == Direction::Between && and.is_none() && reference.thing().is_none() {
+            return Err(format!("`between` needs two references: name the other beside `{reference}` in `and`"));
+        }
+        Ok(Self { reference, direction, frame, and, amount, ordinal })
+    }
+}
+
 impl Pair {
     /// The pair in words: "back of the couch".
     pub fn phrase(&self) -> String {
-        let reference = self.reference.replace('_', " ");
+        let reference = self.reference.words();
         match (self.direction, &self.and) {
-            (Direction::Between, Some(and)) => format!("between the {reference} and the {}", and.replace('_', " ")),
+            (Direction::Between, Some(and)) => format!("between the {reference} and the {}", and.words()),
             (Direction::Between, None) => format!("between the {reference}s"),
             (Direction::Side, _) => format!("next to the {reference}"),
+            (Direction::Above, _) => format!("above the {reference}"),
+            (Direction::Under, _) => format!("under the {reference}"),
+            (Direction::Far, _) => format!("far from the {reference}"),
             (direction, _) => format!("{} of the {reference}", direction.name()),
-        }
-    }
-}
-
-/// The paper's seven directions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Direction {
-    /// In front, ahead, nearer the door.
-    Front,
-    /// Behind, at the far end.
-    Back,
-    /// To the left.
-    Left,
-    /// To the right.
-    Right,
-    /// In the middle.
-    Central,
-    /// Next to, by, with, against.
-    Side,
-    /// Between two references.
-    Between,
-}
-
-impl Direction {
-    /// The name as it stands in records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Front => "front",
-            Self::Back => "back",
-            Self::Left => "left",
-            Self::Right => "right",
-            Self::Central => "central",
-            Self::Side => "side",
-            Self::Between => "between",
-        }
-    }
-
-    /// Left for right and right for left; the others as they are.
-    pub const fn mirrored(self) -> Self {
-        match self {
-            Self::Left => Self::Right,
-            Self::Right => Self::Left,
-            other => other,
-        }
-    }
-}
-
-/// The axes in which a direction is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Frame {
-    /// The robot's pose when the words are reached.
-    Robot,
-    /// The heading at which the room is entered, wherever the robot stands: front is nearer the door.
-    Viewer,
-    /// The item's own front, left and right.
-    Intrinsic,
-    /// Seen by someone who stands before the item's front and looks at it: left and right mirrored.
-    Facing,
-}
-
-impl Frame {
-    /// The name as it stands in records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Robot => "robot",
-            Self::Viewer => "viewer",
-            Self::Intrinsic => "intrinsic",
-            Self::Facing => "facing",
         }
     }
 }
@@ -218,7 +254,7 @@ pub enum Amount {
     /// A turn in degrees.
     Degrees(f64),
     /// Until something is reached: `wall`, `door`, `room`, or a noun.
-    Until(String),
+    Until(Reference),
 }
 
 impl Amount {
@@ -229,7 +265,7 @@ impl Amount {
             Self::Meters(metres) => format!("{metres} m"),
             Self::Steps(steps) => format!("{steps} steps"),
             Self::Degrees(degrees) => format!("{degrees}°"),
-            Self::Until(what) => format!("until the {}", what.replace('_', " ")),
+            Self::Until(what) => format!("until the {}", what.words()),
         }
     }
 }

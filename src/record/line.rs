@@ -12,6 +12,8 @@ use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::value::RawValue;
 
+use super::Part;
+
 /// A record: keys in their order, values as raw JSON.
 #[derive(Debug, Default)]
 pub struct Record<'line> {
@@ -88,6 +90,21 @@ impl<'line> Record<'line> {
             Some(field) => field.1 = Cow::Owned(raw),
             None => self.fields.push((Cow::Owned(key.to_string()), Cow::Owned(raw))),
         }
+    }
+
+    /// What a stage has added, or nothing where it has not run.
+    pub fn part<'a, T: Part + Deserialize<'a>>(&'a self) -> Result<Option<T>, FieldError> {
+        self.get(T::KEY)
+    }
+
+    /// What a stage has added; its absence is an error that says which stage adds it.
+    pub fn require_part<'a, T: Part + Deserialize<'a>>(&'a self, added_by: &str) -> Result<T, FieldError> {
+        self.require(T::KEY, added_by)
+    }
+
+    /// Adds what a stage has made, in place where the record has it, else at the end.
+    pub fn put<T: Part + Serialize>(&mut self, part: &T) {
+        self.set(T::KEY, part);
     }
 
     /// The record's id as text, when it has one that is a string or a number.

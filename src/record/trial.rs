@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Rounded;
+use super::{Destination, Rounded};
 use crate::geometry::Pose;
 
 /// What became of a plan on a robot.
@@ -34,10 +34,24 @@ pub struct Trial {
     pub collisions: u32,
     /// The least distance between the robot's outline and anything solid.
     pub min_clearance_m: Option<Rounded>,
+    /// What was brought where, in order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub delivered: Vec<Delivery>,
     /// What was done, and why.
     pub actions: Vec<ActionReport>,
     /// Where the robot was: seconds, x, y, heading.
     pub path: Vec<PathPoint>,
+}
+
+/// Objects that were brought somewhere.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Delivery {
+    /// Nouns of the objects.
+    pub objects: Vec<String>,
+    /// Where they should go.
+    pub to: Destination,
+    /// Where the robot was when it had brought them.
+    pub pose: Pose,
 }
 
 /// How a trial ended.
@@ -52,6 +66,8 @@ pub enum Outcome {
     NotFound,
     /// No safe way on.
     Blocked,
+    /// What was asked of the robot did not come about: it turned, drove or came to rest nowhere.
+    Stuck,
     /// The time allowed was used up.
     Timeout,
     /// Stopped by a person or a signal.
@@ -68,6 +84,7 @@ impl Outcome {
             Self::Arrived => "arrived",
             Self::NotFound => "not_found",
             Self::Blocked => "blocked",
+            Self::Stuck => "stuck",
             Self::Timeout => "timeout",
             Self::Stopped => "stopped",
             Self::LinkLost => "link_lost",
@@ -83,7 +100,7 @@ impl Outcome {
 /// One action as it went.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ActionReport {
-    /// The action's name in the plan: `enter`, `move`, `go`, `search`, `find`.
+    /// The action's name in the plan: `enter`, `move`, `go`, `search`, `find`, `deliver`.
     #[serde(rename = "do")]
     pub action: String,
     /// How it ended.

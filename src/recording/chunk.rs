@@ -7,7 +7,8 @@ use mcap::read::ChannelAccumulator;
 use mcap::records::op;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
-use super::log_reader::{LONGEST_RECORD, link};
+use super::link::link;
+use crate::limits::MCAP_RECORD_BYTES;
 
 /// What a chunk held.
 pub(super) struct Unpacked {
@@ -25,7 +26,7 @@ pub(super) fn unpack(length: u64, body: &[u8], links: &mut ChannelAccumulator<'s
         .with_skip_end_magic(true)
         .with_validate_chunk_crcs(checked)
         .with_prevalidate_chunk_crcs(checked)
-        .with_record_length_limit(LONGEST_RECORD as usize);
+        .with_record_length_limit(MCAP_RECORD_BYTES.count());
     let body = before_overrun(body);
     let mut reader = LinearReader::new_with_options(options);
     let mut head = [op::CHUNK; 9];

@@ -14,12 +14,16 @@ use crate::frame::{Camera, RgbdFrame};
 use crate::geometry::{ClearanceGrid, Pose};
 use crate::map::RoomMap;
 use crate::perception::View;
-use crate::record::{Detection, Record};
-use crate::robot::{MobileBase, SonarReading, p3dx};
+use crate::record::{Chunk, Detection, Grounding, Part, Plan, Record, Token, Trial};
+use crate::robot::{MobileBase, SonarReading};
 
 /// The keys the stages add, in their order, under the stage's name.
-const STAGES: [(&str, &[&str]); 4] =
-    [("chunk", &["tokens", "chunks"]), ("ground", &["grounding"]), ("plan", &["plan"]), ("drive", &["trial"])];
+const STAGES: [(&str, &[&str]); 4] = [
+    ("chunk", &[Vec::<Token>::KEY, Vec::<Chunk>::KEY]),
+    ("ground", &[Grounding::KEY]),
+    ("plan", &[Plan::KEY]),
+    ("drive", &[Trial::KEY]),
+];
 
 /// A look, as `perceive` tells it of a frame.
 #[derive(Serialize)]
@@ -131,7 +135,7 @@ fn inputs(record: &Record) -> Vec<(&'static str, String)> {
 impl Watcher for Recorder {
     fn sensed(&mut self, base: &dyn MobileBase) {
         self.log.pose(base.time_s(), base.pose(), base.velocity());
-        let heard = base.sonar().iter().filter(|reading| reading.range_m < p3dx::SONAR_RANGE_M);
+        let heard = base.sonar().iter().filter(|reading| reading.range_m < base.body().sonar_range_m);
         let echoes: Vec<_> = heard.map(SonarReading::echo).collect();
         self.log.sonar(base.time_s(), &echoes);
         if let Some(pace) = &self.pace {

@@ -200,7 +200,7 @@ impl TrialLog {
 
 const SEEN_SCHEMA: &str = r#"{"type":"object","properties":{"detections":{"type":"array","items":{"type":"object"}}}}"#;
 
-const OPTIONS_SCHEMA: &str = r#"{"type":"object","properties":{"options":{"type":"array","items":{"type":"string"}}}}"#;
+const OPTIONS_SCHEMA: &str = r#"{"type":"object"}"#;
 
 const VELOCITY_SCHEMA: &str =
     r#"{"type":"object","properties":{"linear_m_s":{"type":"number"},"angular_rad_s":{"type":"number"}}}"#;

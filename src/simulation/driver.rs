@@ -49,7 +49,7 @@ impl Driver {
         let picture = wants_picture.then(|| self.home.take_picture(run.final_pose));
         let png = picture.as_ref().map(RgbdFrame::color_png);
         self.outputs.leave((&self.home.map, &truth), &mut run, png.as_deref(), record, id)?;
-        record.set("trial", &run.trial);
+        record.put(&run.trial);
         let line = || serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()));
         if let Some(story) = story {
             let thumbnail = picture.as_ref().map(RgbdFrame::thumbnail_png);

@@ -21,6 +21,7 @@ pub(super) fn missing(home: &Home, plan: &Plan) -> Option<Run> {
         spl: None,
         collisions: 0,
         min_clearance_m: None,
+        delivered: Vec::new(),
         actions: Vec::new(),
         path: vec![PathPoint::new(0.0, start)],
     };

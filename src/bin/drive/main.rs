@@ -1,7 +1,6 @@
 //! Plans in, trials out.
 
 mod executive;
-mod number;
 mod outputs;
 mod replay;
 mod robot;
@@ -28,15 +27,21 @@ use spatial_fetch::simulation::{Driver, Inventory, NoiseLevel, Settings, drawn};
 struct Arguments {
     #[command(flatten)]
     home: HomeArguments,
-    /// How imperfect the robot's wheels, sonars, compass and start are
-    #[arg(long, value_enum, default_value = "default")]
-    noise: NoiseLevel,
     /// Say what there is in the home – rooms, doors, furniture, objects – and end; with --plot draw it, too
     #[arg(long, help_heading = "Home")]
     list: bool,
     /// Look for an object that the simulated home does not have, too, in place of saying so at once
     #[arg(long, help_heading = "Home")]
     search_anyway: bool,
+    /// How imperfect the simulated robot's wheels, sonars, compass and start are [default: default, with --serve off]
+    #[arg(long, value_enum)]
+    noise: Option<NoiseLevel>,
+    /// Seconds after which the simulated robot does what it is told, where it is not what its world says
+    #[arg(long, value_name = "SECONDS", value_parser = cli::within(cli::DELAY_S))]
+    dead_time: Option<f64>,
+    /// Up to so many seconds more, differently each time
+    #[arg(long, value_name = "SECONDS", value_parser = cli::within(cli::DELAY_S))]
+    jitter: Option<f64>,
     #[command(flatten)]
     eyes: EyeArguments,
     #[command(flatten)]
@@ -73,10 +78,12 @@ impl Arguments {
     /// With the options of the log that is replayed, where none were given.
     fn with_recorded_options(self, reporter: &Reporter) -> Result<Self, Failure> {
         // What comes through a pipe is read once.
-        let Some(log) = self.log.from.as_ref().filter(|log| log.is_file()) else { return Ok(self) };
-        let Some(replay) = replay::replay(log)? else { return Ok(self) };
-        replay.remarks.iter().for_each(|remark| reporter.remark(remark));
-        Ok(replay.arguments)
+        let Some(log) = self.log.from.clone().filter(|log| log.is_file()) else { return Ok(self) };
+        // A log may say how a robot is simulated, never how a real one is driven.
+        if self.robot.serves() || self.robot.is_real() {
+            return Ok(self);
+        }
+        self.as_recorded_in(&log, reporter)
     }
 
     /// Says what there is in the home.
@@ -95,22 +102,18 @@ impl Arguments {
             return self.list();
         }
         if self.robot.serves() {
-            return self.robot.run_served(&self.home.load()?, &reporter, self.common.seed);
+            let settings = self.settings(NoiseLevel::Off);
+            return self.robot.run_served(&self.home.load()?, &reporter, settings, self.common.force);
         }
         if self.robot.is_real() {
             return self.drive_real(reporter);
         }
         let home = self.home.load()?;
-        let settings = Settings {
-            options: self.executive.options(),
-            perception: self.eyes.perception,
-            kinect: self.eyes.kinect(),
-            noise: self.noise,
-            seed: self.common.seed,
-        };
+        let settings = self.settings(NoiseLevel::Default);
+        let recorded = self.trial_options().line();
         let watched = self.outputs.is_live();
         let page = self.outputs.page(self.common.force)?;
-        let outputs = self.outputs.outputs(&self.common, replay::recorded_line()?, &reporter)?;
+        let outputs = self.outputs.outputs(&self.common, recorded, &reporter)?;
         let stories = outputs.stories.clone();
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
         // Nobody watches two trials at once.
@@ -121,12 +124,25 @@ impl Arguments {
         Ok(exit)
     }
 
+    /// How the simulated robot is, with that noise where none is given.
+    fn settings(&self, usual: NoiseLevel) -> Settings {
+        Settings {
+            options: self.executive.options(),
+            perception: self.eyes.perception,
+            kinect: self.eyes.kinect(),
+            noise: self.noise.unwrap_or(usual),
+            dead_time_s: self.dead_time,
+            jitter_s: self.jitter,
+            seed: self.common.seed,
+        }
+    }
+
     /// Drives a real robot, of whose home the rooms alone are known.
     fn drive_real(self, reporter: Reporter) -> Result<Exit, Failure> {
         let map = self.home.rooms()?;
         let options = self.executive.options();
         let page = self.outputs.page(self.common.force)?;
-        let outputs = self.outputs.outputs(&self.common, replay::recorded_line()?, &reporter)?;
+        let outputs = self.outputs.outputs(&self.common, String::new(), &reporter)?;
         let (stories, rooms) = (outputs.stories.clone(), map.clone());
         let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
         // One robot, one plan at a time.

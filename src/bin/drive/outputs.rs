@@ -6,15 +6,14 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::Args;
-use spatial_fetch::cli::{Common, Failure, Reporter};
+use spatial_fetch::cli::{Common, Failure, Reporter, within};
 use spatial_fetch::evaluation::write_trials;
 use spatial_fetch::files::refuse_existing;
 use spatial_fetch::map::RoomMap;
 use spatial_fetch::recording::{Live, Narration, Outputs, Stories, TruePiece};
 
-use crate::number::within;
-
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Outputs")]
 pub struct Arguments {
     /// Draw the way through the rooms; {id} stands for the record's id

@@ -6,19 +6,18 @@ use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 use spatial_fetch::behavior::Options;
-use spatial_fetch::cli::{Exit, Failure, Reporter, on_interrupt};
+use spatial_fetch::cli::{Exit, Failure, Reporter, on_interrupt, within};
 use spatial_fetch::field::{NoEyes, RealDriver, StreamEyes, Tell};
 use spatial_fetch::perception::Eyes;
 use spatial_fetch::recording::Outputs;
+use spatial_fetch::robot::RealBase;
 use spatial_fetch::robot::arcos::client::{ArcosBase, Settings};
 use spatial_fetch::robot::arcos::line::{Address, Line};
 use spatial_fetch::robot::arcos::parameters::Parameters;
 use spatial_fetch::robot::p3dx::SonarArray;
 use spatial_fetch::simulation::arcos::DryLine;
 use spatial_fetch::simulation::arcos::{ServeAddress, ServerSettings};
-use spatial_fetch::simulation::{Home, Served};
-
-use crate::number::within;
+use spatial_fetch::simulation::{self, Home, Served};
 
 /// The models whose scales are known.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -30,6 +29,7 @@ enum Model {
 }
 
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Robot")]
 pub struct Arguments {
     /// sim, `serial:/dev/ttyUSB0[@38400]` or tcp:HOST:8101
@@ -103,16 +103,25 @@ impl Arguments {
     }
 
     /// Serves until interrupted.
-    pub fn run_served(self, home: &Home, reporter: &Reporter, seed: u64) -> Result<Exit, Failure> {
+    pub fn run_served(
+        self,
+        home: &Home,
+        reporter: &Reporter,
+        how: simulation::Settings,
+        force: bool,
+    ) -> Result<Exit, Failure> {
         let Some(address) = self.serve else { return Ok(Exit::Done) };
         let settings = ServerSettings { watchdog: Duration::from_millis(self.watchdog), ..ServerSettings::default() };
-        let served = Served { address, settings, camera: self.camera_out, truth: self.truth_out, seed };
+        if let Some(truth) = &self.truth_out {
+            spatial_fetch::files::refuse_existing(truth, force)?;
+        }
+        let served = Served { address: address.clone(), settings, camera: self.camera_out, truth: self.truth_out, how };
         let stop = spatial_fetch::simulation::served_until_interrupted();
         let closing = stop.clone();
         on_interrupt(move || closing.stop());
         let run = served.run(home, || stop.goes_on(), |text| reporter.remark(text));
         stop.ended();
-        run.map(|()| Exit::Done).map_err(|error| Failure::Failed(format!("--serve: {error}")))
+        run.map(|()| Exit::Done).map_err(|error| Failure::Failed(format!("--serve {address}: {error}")))
     }
 
     /// Connects to the robot.
@@ -124,10 +133,10 @@ impl Arguments {
         reporter: Reporter,
     ) -> Result<RealDriver, Failure> {
         let start = map.start;
-        let base = ArcosBase::connect(self.line()?, self.settings(), start)
-            .map_err(|error| Failure::Failed(error.to_string()))?;
+        let base = ArcosBase::connect(self.line()?, self.settings(), start);
+        let base: Box<dyn RealBase> = Box::new(base.map_err(|error| Failure::Failed(error.to_string()))?);
         let tell: Tell = Arc::new(move |text: &str| reporter.remark(text));
-        let eyes = self.eyes(&map, &base, &tell)?;
+        let eyes = self.eyes(&map, base.as_ref(), &tell)?;
         let driver = RealDriver::new(map, options, outputs, base, eyes, tell);
         let interrupter = driver.interrupter();
         on_interrupt(move || interrupter.stop());
@@ -137,10 +146,10 @@ impl Arguments {
     fn eyes(
         &self,
         map: &spatial_fetch::map::RoomMap,
-        base: &ArcosBase,
+        base: &dyn RealBase,
         tell: &Tell,
     ) -> Result<Box<dyn Eyes + Send>, Failure> {
-        let (map, carrier, tell) = (map.clone(), Arc::new(base.stopper()), Arc::clone(tell));
+        let (map, carrier, tell) = (map.clone(), base.remote(), Arc::clone(tell));
         let eyes = match self.camera.to_str() {
             Some("none") => return Ok(Box::new(NoEyes)),
             #[cfg(feature = "kinect")]

@@ -9,7 +9,9 @@ use std::sync::Arc;
 use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, FrameInput, FromLog, Intake, Program};
 use spatial_fetch::map::load_map;
-use spatial_fetch::perception::{Detector, ExternalDetector, Model, Perceiver};
+use spatial_fetch::perception::{
+    CAMERA_HEIGHTS_M, CAMERA_TILTS_DEG, Detector, ExternalDetector, Model, Perceiver, Told,
+};
 use spatial_fetch::record::Detection;
 
 /// Finds furniture with pose in RGB-D frames.
@@ -34,6 +36,15 @@ struct Arguments {
     /// Draw each frame with its boxes, and the grid map beside it, into this folder
     #[arg(long, value_name = "DIR")]
     overlay: Option<PathBuf>,
+    /// How high above the floor the camera is, metres, for frames that do not tell their camera's pose
+    #[arg(long, value_name = "METRES", value_parser = cli::within(CAMERA_HEIGHTS_M))]
+    camera_height: Option<f64>,
+    /// How far down the camera looks, degrees, for frames that do not tell their camera's pose
+    #[arg(long, value_name = "DEGREES", value_parser = cli::within(CAMERA_TILTS_DEG), allow_negative_numbers = true)]
+    camera_tilt: Option<f64>,
+    /// Leave out what is less surely furniture than this, 0 to 1; 0 gives every guess
+    #[arg(long, value_name = "CONFIDENCE", default_value_t = 0.5, value_parser = cli::within(0.0..=1.0))]
+    least_confidence: f64,
     /// A model that `evaluate train` made [default: the one built in]
     #[arg(long, value_name = "FILE", conflicts_with = "detector")]
     model: Option<PathBuf>,
@@ -60,6 +71,8 @@ impl Arguments {
             detector: self.model.as_deref().map_or_else(|| Ok(Detector::default()), load_detector)?,
             external: external.map(Arc::new),
             map: self.map.as_deref().map(load_map).transpose().map_err(|e| failed(&e))?,
+            told: Told { height_m: self.camera_height, tilt_deg: self.camera_tilt },
+            least_confidence: self.least_confidence,
             overlay: self.overlay.clone(),
             force: self.common.force,
         })
@@ -86,12 +99,12 @@ impl Program for Arguments {
     }
     fn run(self) -> Result<Exit, Failure> {
         let (perceiver, common) = (self.perceiver()?, &self.common);
-        match FrameInput::open(&common.files, &self.log)? {
+        match FrameInput::open(&common.files, &self.log, perceiver.told)? {
             input if self.fuse => fuse::run(common, input, &perceiver),
             FrameInput::Lines(mut lines) => cli::run_filter_on(Self::NAME, common, &mut lines, INTAKE, &perceiver),
             FrameInput::Logs(mut logs) => {
-                cli::run_frames(Self::NAME, common, logs.as_mut(), &perceiver, &|frame, record| {
-                    perceiver.see(frame, record)
+                cli::run_frames(Self::NAME, common, logs.as_mut(), &perceiver, &|timed, record| {
+                    perceiver.see(&timed.frame, timed.pose_from, record)
                 })
             }
         }

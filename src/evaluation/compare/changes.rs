@@ -3,10 +3,10 @@
 use serde_json::Value;
 
 use super::Change;
-use crate::record::{FieldError, Record};
+use crate::record::{Chunk, Detection, FieldError, Grounding, Part, Plan, Record, Trial};
 
 /// The keys that stages add and that say what was understood and done.
-const KEYS: [&str; 5] = ["chunks", "grounding", "plan", "trial", "detections"];
+const KEYS: [&str; 5] = [Vec::<Chunk>::KEY, Grounding::KEY, Plan::KEY, Trial::KEY, Vec::<Detection>::KEY];
 
 /// Reasons and measurements: they move with every small change, and say little about what changed.
 const NOISE: [&str; 18] = [

@@ -132,7 +132,7 @@ impl Comparison {
         let changes = changes_between(id, a, b, everything)?;
         self.differing += usize::from(!changes.is_empty());
         self.changes.extend(changes);
-        let (before, after): (Option<Trial>, Option<Trial>) = (a.get("trial")?, b.get("trial")?);
+        let (before, after): (Option<Trial>, Option<Trial>) = (a.part()?, b.part()?);
         if before.is_none() && after.is_none() {
             return Ok(());
         }

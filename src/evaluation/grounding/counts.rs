@@ -116,7 +116,7 @@ pub fn judge(gold: &Gold, grounding: &Grounding) -> Verdict {
     let nodes = || grounding.nodes.iter();
     let mut said = Pairs::new();
     for pair in nodes().flat_map(|node| &node.pairs) {
-        *said.entry((name(&pair.reference), pair.direction)).or_default() += 1;
+        *said.entry((name(pair.reference.name()), pair.direction)).or_default() += 1;
     }
     let mut wanted = Pairs::new();
     for (reference, direction) in &gold.pairs {

@@ -55,7 +55,7 @@ pub(super) fn agrees(label: &Label, meaning: &Meaning) -> bool {
         || side(&expected).is_some() && side(&expected) == side(meaning)
         || expected.room.is_some() && expected.room == meaning.room;
     let first = |meaning: &Meaning| -> Option<(String, Direction)> {
-        meaning.pairs.first().map(|pair| (pair.reference.clone(), pair.direction))
+        meaning.pairs.first().map(|pair| (pair.reference.to_string(), pair.direction))
     };
     room && expected.object == meaning.object
         && expected.target.is_some() == meaning.target.is_some()

@@ -146,7 +146,7 @@ fn grounded(gold: &Gold, grounder: &Grounder, gold_tree: bool) -> String {
     let (tokens, chunks) = chunk_text(&gold.text);
     let chunks = if gold_tree { gold.chunks.clone() } else { chunks };
     let mut record = Record::from_text(&gold.id, &gold.text);
-    record.set("grounding", &grounder.ground(&gold.text, &tokens, &chunks));
+    record.put(&grounder.ground(&gold.text, &tokens, &chunks));
     serde_json::to_string(&record).unwrap_or_default()
 }
 

@@ -1,10 +1,9 @@
 //! Whether a reference–direction pair is true of a piece, by the truth.
 
-use super::gold_home::is_place;
 use crate::behavior::motion::RoomFrame;
 use crate::geometry::{Pose, distance_to_segment};
 use crate::map::RoomMap;
-use crate::record::{Direction, Frame, Pair};
+use crate::record::{Direction, Frame, Pair, Reference};
 use crate::simulation::Item;
 use crate::simulation::arrange::relations::{AT_WALL_M, NEAR_M, part, standing};
 
@@ -25,12 +24,12 @@ pub(super) struct Told<'a> {
 
 /// Whether what a pair says of robot, room, wall or door is true; pairs with other references say nothing here.
 pub(super) fn in_place(item: &Item, pair: &Pair, told: Told) -> bool {
-    match pair.reference.as_str() {
-        "robot" => by_robot(item, pair.direction, told.arrived),
-        "room" => in_room(item, pair.direction, told),
-        "wall" => at_wall(item, pair.direction, told),
-        "door" => by_door(item, pair.direction, told),
-        _ => true,
+    match &pair.reference {
+        Reference::Robot => by_robot(item, pair.direction, told.arrived),
+        Reference::Room => in_room(item, pair.direction, told),
+        Reference::Wall => at_wall(item, pair.direction, told),
+        Reference::Door => by_door(item, pair.direction, told),
+        Reference::Move | Reference::Thing(_) => true,
     }
 }
 
@@ -42,7 +41,7 @@ fn by_robot(item: &Item, direction: Direction, arrived: Pose) -> bool {
         Direction::Left => (30.0..=120.0).contains(&off),
         Direction::Right => (-120.0..=-30.0).contains(&off),
         Direction::Back => off.abs() > 130.0,
-        Direction::Side | Direction::Central | Direction::Between => at < 2.0,
+        _ => at < 2.0,
     };
     toward && at < 4.5
 }
@@ -55,7 +54,7 @@ fn in_room(item: &Item, direction: Direction, told: Told) -> bool {
         Direction::Left => part.across < 0.38,
         Direction::Right => part.across > 0.62,
         Direction::Side => part.at_wall,
-        Direction::Central | Direction::Between => (0.3..=0.7).contains(&part.depth),
+        _ => (0.3..=0.7).contains(&part.depth),
     }
 }
 
@@ -73,7 +72,7 @@ fn at_wall(item: &Item, direction: Direction, told: Told) -> bool {
             Direction::Back => ahead && away.x > 0.0,
             Direction::Left => !ahead && away.y > 0.0,
             Direction::Right => !ahead && away.y < 0.0,
-            Direction::Side | Direction::Central | Direction::Between => true,
+            _ => true,
         };
         is_it && gap(a, b) < AT_WALL_M
     })
@@ -89,13 +88,13 @@ fn by_door(item: &Item, direction: Direction, told: Told) -> bool {
         Direction::Front => at.y.abs() < at.x,
         // "Behind the door": beside it, at its wall.
         Direction::Back => near && at.x < 0.6,
-        Direction::Side | Direction::Central | Direction::Between => near,
+        _ => near,
     }
 }
 
 /// Whether a pair is true of `item` with this `landmark`.
 pub(super) fn related(item: &Item, landmark: &Item, pair: &Pair, told: Told) -> bool {
-    if is_place(&pair.reference) {
+    if pair.reference.thing().is_none() {
         return false;
     }
     let stands = standing(item, landmark, told.frame.entry);

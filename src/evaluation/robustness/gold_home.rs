@@ -12,7 +12,7 @@ use crate::geometry::Pose;
 use crate::language::Lexicon;
 use crate::map::RoomMap;
 use crate::planning::Planner;
-use crate::record::{Action, Amount, Direction, Grounding, Pair, Plan};
+use crate::record::{Action, Amount, Direction, Grounding, Pair, Plan, Reference};
 use crate::simulation::Home;
 use crate::simulation::Item;
 use crate::simulation::arrange::access::everything_is_accessible;
@@ -114,8 +114,8 @@ impl<'a> Builder<'a> {
     /// Where one step of the instruction leads; furniture it names is put ahead first.
     fn follow(&mut self, action: &Action, pose: Pose) -> Option<Pose> {
         let noun = match action {
-            Action::Go { reference, .. } if !matches!(reference.as_str(), "room" | "wall" | "door") => Some(reference),
-            Action::Move { amount: Some(Amount::Until(noun)), .. } if noun != "wall" => Some(noun),
+            Action::Go { reference, .. } => reference.thing(),
+            Action::Move { amount: Some(Amount::Until(what)), .. } => what.thing(),
             _ => None,
         };
         let mut footprint = None;
@@ -143,9 +143,9 @@ impl<'a> Builder<'a> {
             Body::Furniture(category) => category,
             Body::Object | Body::Nothing => "table",
         };
-        let by_robot = pairs.iter().any(|pair| pair.reference == "robot");
-        let by_wall =
-            matches!(category, "nightstand" | "desk" | "counter") || pairs.iter().any(|p| p.reference == "wall");
+        let by_robot = pairs.iter().any(|pair| pair.reference == Reference::Robot);
+        let by_wall = matches!(category, "nightstand" | "desk" | "counter")
+            || pairs.iter().any(|p| p.reference == Reference::Wall);
         let spot = if ahead && !by_robot {
             let direction = (told.arrived.heading, AHEAD_RAD);
             Spot::From { point: told.arrived.position(), distance: AHEAD_M, direction, heading: None }
@@ -166,9 +166,9 @@ impl<'a> Builder<'a> {
     /// The furniture landmarks beside the target; the others, which lie on it, are handed back.
     fn put_landmarks<'p>(&mut self, target: usize, pairs: &'p [Pair], told: Told) -> Option<Vec<&'p str>> {
         let mut on_it = Vec::new();
-        for pair in pairs.iter().filter(|pair| !is_place(&pair.reference)) {
-            let Body::Furniture(category) = body_of(&pair.reference, self.lexicon) else {
-                on_it.push(pair.reference.as_str());
+        for (pair, noun) in pairs.iter().filter_map(|pair| Some((pair, pair.reference.thing()?))) {
+            let Body::Furniture(category) = body_of(noun, self.lexicon) else {
+                on_it.push(noun);
                 continue;
             };
             if pair.direction == Direction::Between {
@@ -219,8 +219,8 @@ impl<'a> Builder<'a> {
     /// Other tables in the room, where the words do not fit, and other furniture.
     fn put_others(&mut self, target: usize, pairs: &[Pair], told: Told, object_named: bool) {
         let item = self.furnisher.scene().furniture[target].clone();
-        let named: Vec<Body> = pairs.iter().map(|pair| body_of(&pair.reference, self.lexicon)).collect();
-        let says_where = pairs.iter().any(|pair| pair.reference != "move");
+        let named: Vec<Body> = pairs.iter().map(|pair| body_of(pair.reference.name(), self.lexicon)).collect();
+        let says_where = pairs.iter().any(|pair| pair.reference != Reference::Move);
         let count = if says_where { 1 + self.furnisher.dice().below(2) } else { usize::from(object_named) };
         for _ in 0..count {
             let category = OTHERS[self.furnisher.dice().below(OTHERS.len())];
@@ -258,7 +258,7 @@ impl<'a> Builder<'a> {
 
 /// Whether a pair holds of `other` as well as of the target: by its place, or by a landmark that stands there.
 fn fits(other: &Item, pair: &Pair, furniture: &[Item], target: &Item, told: Told) -> bool {
-    if is_place(&pair.reference) {
+    if pair.reference.thing().is_none() {
         return in_place(other, pair, told);
     }
     furniture.iter().any(|landmark| landmark.id != target.id && related(other, landmark, pair, told))
@@ -274,10 +274,6 @@ fn wanted(plan: &Plan) -> (&str, Vec<Pair>) {
     });
     let (target, pairs) = search.unwrap_or_default();
     (target.unwrap_or("table"), pairs)
-}
-
-pub(super) fn is_place(reference: &str) -> bool {
-    matches!(reference, "move" | "robot" | "room" | "wall" | "door")
 }
 
 #[cfg(test)]

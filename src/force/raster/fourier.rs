@@ -4,7 +4,7 @@ use rustfft::num_complex::Complex;
 use rustfft::{FftDirection, FftPlanner};
 
 use super::corners::Corner;
-use super::correlation::{Count, Frame};
+use super::nodes::{Count, Frame};
 
 type Plane = Vec<Complex<f64>>;
 

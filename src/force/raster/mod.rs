@@ -10,10 +10,11 @@ mod corners;
 mod correlation;
 mod fourier;
 mod image;
+mod nodes;
 mod piece;
 mod ray;
 
-pub use self::image::{MOST_CELLS, Raster, RasterError};
+pub use self::image::{Raster, RasterError};
 
 use self::correlation::Covariogram;
 use self::ray::Rays;

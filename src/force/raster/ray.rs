@@ -7,7 +7,8 @@
 use multiversion::multiversion;
 
 use super::super::Force;
-use super::correlation::{Count, Counts, Covariogram, Frame};
+use super::correlation::{Counts, Covariogram};
+use super::nodes::{Count, Frame};
 use super::piece::Piece;
 
 /// Columns worked on at a time.

@@ -138,10 +138,10 @@ impl LabelledTree {
     pub fn from_record(record: &Record) -> Result<Self, TrainingError> {
         let wrong = |error: crate::record::FieldError| TrainingError(error.to_string());
         let text: String = record.require("text", "a labelled record needs the description").map_err(wrong)?;
-        let chunks: Vec<Chunk> = record.require("chunks", "a labelled record needs its tree").map_err(wrong)?;
+        let chunks: Vec<Chunk> = record.require_part("a labelled record needs its tree").map_err(wrong)?;
         let labels: Vec<Label> =
             record.require("groundings", "a labelled record needs one label per chunk, in pre-order").map_err(wrong)?;
-        let tokens: Vec<Token> = record.get("tokens").map_err(wrong)?.unwrap_or_default();
+        let tokens: Vec<Token> = record.part().map_err(wrong)?.unwrap_or_default();
         let mut tree = Self::unlabelled(&text, &tokens, &chunks);
         if tree.chunks.len() != labels.len() {
             return Err(TrainingError(format!(

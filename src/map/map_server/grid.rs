@@ -7,11 +7,10 @@ use zune_ppm::zune_core::bytestream::ZCursor;
 use zune_ppm::zune_core::result::DecodingResult;
 
 use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, distance_to_segment, vec2};
+use crate::limits::MAP_CELLS;
 
 /// A cell this near to a room's outline belongs to its wall, metres.
 const WALL_M: f64 = 0.25;
-/// More cells than this are no home.
-const MOST_CELLS: usize = 50_000_000;
 
 /// From which shares of darkness on a cell is occupied, and free.
 #[derive(Clone, Copy, Debug)]
@@ -45,9 +44,7 @@ impl Grid {
         let unreadable = |what: String| format!("not a binary PGM (P5) that can be read: {what}");
         decoder.decode_headers().map_err(|error| unreadable(format!("{error:?}")))?;
         let (width, height) = decoder.dimensions().ok_or_else(|| unreadable("no size".to_string()))?;
-        if width.saturating_mul(height) > MOST_CELLS {
-            return Err(format!("{width} × {height} cells are more than {MOST_CELLS}; scale the map down"));
-        }
+        MAP_CELLS.check(width.saturating_mul(height)).map_err(|error| format!("{error}; scale the map down"))?;
         let levels: Vec<f64> = match decoder.decode().map_err(|error| unreadable(format!("{error:?}")))? {
             DecodingResult::U8(levels) => levels.iter().map(|&level| f64::from(level) / 255.0).collect(),
             DecodingResult::U16(levels) => levels.iter().map(|&level| f64::from(level) / 65535.0).collect(),

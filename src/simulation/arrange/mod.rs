@@ -10,6 +10,7 @@ mod furnish;
 mod new_home;
 mod rearrange;
 pub mod relations;
+mod standing_room;
 mod stock;
 
 pub use dice::Dice;

@@ -2,8 +2,9 @@
 
 use super::access::everything_is_accessible;
 use super::relations::{Part, RELATED_M, Standing, part, standing};
+use super::standing_room::{is_free, rounded};
 use super::{Dice, Furnisher, Spot};
-use crate::geometry::{Pose, vec2, wrap_angle};
+use crate::geometry::{Pose, vec2};
 use crate::map::RoomMap;
 use crate::simulation::{Item, Scene};
 
@@ -112,24 +113,6 @@ fn straight_enough(item: &Item) -> bool {
     quarter.min(90.0 - quarter) <= 10.0
 }
 
-/// Whether a piece stands inside its room, clear of the way in and of the others.
-pub(super) fn is_free(map: &RoomMap, items: &[Item], i: usize, entry: Pose) -> bool {
-    const WAY_IN_M: f64 = 0.55;
-    let footprint = items[i].footprint();
-    let centre = items[i].pose().position();
-    let Some(room) = map.room_at(centre) else { return false };
-    let outline = room.polygon();
-    let inside = footprint.corners().iter().all(|&corner| outline.contains(corner))
-        && !outline.corners().iter().any(|&corner| footprint.contains(corner));
-    inside
-        && footprint.distance_to(entry.position()) > WAY_IN_M
-        && map.doors.iter().all(|door| footprint.distance_to(door.middle()) > door.width / 2.0 + 0.1)
-        && items.iter().enumerate().all(|(j, other)| {
-            let apart = (other.pose().position() - centre).norm() > 3.0;
-            j == i || apart || footprint.distance(&other.footprint()) > 0.02
-        })
-}
-
 /// The room a piece stands in, and the pose at which it is entered.
 fn room_of(map: &RoomMap, item: &Item) -> Option<(String, Pose)> {
     let room = map.room_at(item.pose().position())?;
@@ -176,16 +159,6 @@ fn is_broken(map: &RoomMap, before: &Scene, after: &Scene) -> bool {
             .count();
         2 * kept <= was.len()
     })
-}
-
-/// Files are read by people: a centimetre is enough.
-fn rounded(value: f64) -> f64 {
-    (value * 1000.0).round() / 1000.0
-}
-
-/// The same heading in (−180, 180].
-pub(super) fn degrees(radians: f64) -> f64 {
-    rounded(wrap_angle(radians).to_degrees())
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 mod dice;
 mod ears;
 mod obstacles;
+mod orders;
 mod simulated_base;
 mod wheels;
 

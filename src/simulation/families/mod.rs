@@ -19,6 +19,7 @@ mod beds;
 mod chairs;
 mod desks;
 mod dice;
+mod drawers;
 mod finishes;
 mod lamps;
 mod parts;

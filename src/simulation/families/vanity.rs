@@ -1,9 +1,9 @@
 //! Dressing tables, and the mirrors on them and on chests of drawers.
 
 use super::dice::Dice;
+use super::drawers::fronts;
 use super::finishes::{shade, wooden};
 use super::parts::{block, legs, sided};
-use super::storage::fronts;
 use crate::geometry::vec2;
 use crate::simulation::camera::{Finish, Frustum, Texture};
 

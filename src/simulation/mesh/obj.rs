@@ -4,8 +4,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-/// More than this no piece of furniture needs, and a camera would be slow.
-const MOST_TRIANGLES: usize = 1_000_000;
+use crate::limits::MESH_TRIANGLES;
 
 /// The triangles of a file, in its own axes and unit.
 pub(super) fn read(path: &Path) -> Result<Vec<[[f64; 3]; 3]>, String> {
@@ -32,7 +31,6 @@ pub(super) fn read(path: &Path) -> Result<Vec<[[f64; 3]; 3]>, String> {
     }
     match triangles.len() {
         0 => Err("has no triangles; export it with faces".to_string()),
-        n if n > MOST_TRIANGLES => Err(format!("has {n} triangles; reduce it to fewer than {MOST_TRIANGLES}")),
-        _ => Ok(triangles),
+        count => MESH_TRIANGLES.check(count).map(|()| triangles),
     }
 }

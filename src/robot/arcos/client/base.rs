@@ -5,10 +5,10 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::{Client, ConnectError, Event, Report, Settings};
+use super::{Client, ConnectError, Report, Settings};
 use crate::geometry::{Pose, wrap_angle};
 use crate::robot::arcos::line::Line;
-use crate::robot::{MobileBase, RobotError, SonarReading, Status};
+use crate::robot::{Body, Event, MobileBase, RealBase, Remote, RobotError, SonarReading, Status};
 
 /// One turn of the thread waits no longer than this for bytes.
 const TURN: Duration = Duration::from_millis(10);
@@ -42,6 +42,7 @@ impl Shared {
 /// A real robot as a mobile base, in the frame of the room map.
 pub struct ArcosBase {
     shared: Arc<Shared>,
+    body: Body,
     thread: Option<JoinHandle<()>>,
     /// What of the shared state the program sees until it drives on.
     report: Report,
@@ -59,32 +60,27 @@ pub struct ArcosBase {
 #[derive(Clone)]
 pub struct Stopper(Arc<Shared>);
 
-impl Stopper {
-    /// Whether someone has told it to stop for good.
-    pub fn is_stopping(&self) -> bool {
+impl Remote for Stopper {
+    fn is_stopping(&self) -> bool {
         self.0.lock().quit
     }
 
-    /// Whether the robot moves, or is told to.
-    pub fn is_moving(&self) -> bool {
+    fn is_moving(&self) -> bool {
         let state = self.0.lock();
         let (linear, angular) = state.report.velocity;
         linear.abs() > 0.005 || angular.abs() > 0.01
     }
 
-    /// Where its odometry believes it is, in the frame of the map.
-    pub fn pose(&self) -> Pose {
+    fn pose(&self) -> Pose {
         let state = self.0.lock();
         in_map(state.start, state.report.pose)
     }
 
-    /// What happened since this was last asked.
-    pub fn take_events(&self) -> Vec<Event> {
+    fn take_events(&self) -> Vec<Event> {
         std::mem::take(&mut self.0.lock().events)
     }
 
-    /// Stops the robot, switches its motors off, closes the line, and waits until that is done.
-    pub fn stop(&self) {
+    fn stop(&self) {
         let mut state = self.0.lock();
         state.quit = true;
         let until = Instant::now() + ENDS_WITHIN;
@@ -98,7 +94,7 @@ impl Stopper {
 impl ArcosBase {
     /// Connects to the robot on `line`, which stands at `start` in the map.
     pub fn connect(line: Box<dyn Line + Send>, settings: Settings, start: Pose) -> Result<Self, ConnectError> {
-        let resume = settings.resume;
+        let (resume, body) = (settings.resume, settings.body());
         let client = Client::connect(line, settings)?;
         let preflight = client.preflight();
         let report = client.report().clone();
@@ -117,6 +113,7 @@ impl ArcosBase {
         let thread = thread.map_err(|error| ConnectError::Line("the robot's thread".to_string(), error))?;
         Ok(Self {
             shared,
+            body,
             thread: Some(thread),
             report,
             resume,
@@ -127,25 +124,9 @@ impl ArcosBase {
         })
     }
 
-    /// Everything to know before driving off, in one line.
-    pub fn preflight(&self) -> &str {
-        &self.preflight
-    }
-
     /// A handle that stops the robot.
     pub fn stopper(&self) -> Stopper {
         Stopper(Arc::clone(&self.shared))
-    }
-
-    /// Time and distance begin anew.
-    pub fn begin_trial(&mut self) {
-        self.report = self.shared.lock().report.clone();
-        self.began = (self.report.at, self.report.distance_m);
-    }
-
-    /// Metres driven in this trial.
-    pub fn trial_distance_m(&self) -> f64 {
-        self.report.distance_m - self.began.1
     }
 
     /// The robot's last report.
@@ -195,6 +176,25 @@ fn run<L: Line>(mut client: Client<L>, shared: &Shared) {
     }
 }
 
+impl RealBase for ArcosBase {
+    fn preflight(&self) -> &str {
+        &self.preflight
+    }
+
+    fn begin_trial(&mut self) {
+        self.report = self.shared.lock().report.clone();
+        self.began = (self.report.at, self.report.distance_m);
+    }
+
+    fn trial_distance_m(&self) -> f64 {
+        self.report.distance_m - self.began.1
+    }
+
+    fn remote(&self) -> Arc<dyn Remote> {
+        Arc::new(self.stopper())
+    }
+}
+
 impl Drop for ArcosBase {
     fn drop(&mut self) {
         self.stopper().stop();
@@ -208,6 +208,10 @@ impl Drop for ArcosBase {
 }
 
 impl MobileBase for ArcosBase {
+    fn body(&self) -> Body {
+        self.body
+    }
+
     fn pose(&self) -> Pose {
         in_map(self.start, self.report.pose)
     }

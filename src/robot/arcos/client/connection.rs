@@ -4,12 +4,12 @@ use std::io;
 use std::time::Duration;
 
 use super::handshake::Handshake;
-use super::{ConnectError, Event, Identity, Odometry, Report, Settings, guarded_speed};
+use super::{ConnectError, Identity, Odometry, Report, Settings, guarded_speed};
 use crate::geometry::Pose;
 use crate::robot::arcos::codec::{Command, Config, Counters, Decoder, number};
 use crate::robot::arcos::line::Line;
 use crate::robot::arcos::parameters::Parameters;
-use crate::robot::{MobileBase, RobotError, SonarReading, Status};
+use crate::robot::{Body, Event, MobileBase, RobotError, SonarReading, Status};
 
 /// Between two commands (Operations Manual: 3 to 5 ms).
 pub(super) const SPACING: Duration = Duration::from_millis(4);
@@ -286,6 +286,10 @@ impl<L: Line> Drop for Client<L> {
 }
 
 impl<L: Line> MobileBase for Client<L> {
+    fn body(&self) -> Body {
+        self.settings.body()
+    }
+
     fn pose(&self) -> Pose {
         self.report.pose
     }

@@ -23,7 +23,7 @@ pub use connection::Client;
 pub use guard::guarded_speed;
 pub use handshake::{HandshakeError, Identity};
 pub use odometry::{Odometry, Taken};
-pub use report::{Event, Report};
+pub use report::Report;
 pub use settings::Settings;
 
 /// Why no robot could be had at the end of a line.

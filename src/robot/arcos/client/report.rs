@@ -5,15 +5,6 @@ use std::time::Duration;
 use crate::geometry::Pose;
 use crate::robot::{SonarReading, Status};
 
-/// Something worth telling, with its time on the line's clock.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Event {
-    /// When.
-    pub at: Duration,
-    /// What, for people.
-    pub text: String,
-}
-
 /// The latest state of the robot.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
