@@ -132,6 +132,16 @@ fn a_table_goes_in_and_a_table_comes_out() {
 }
 
 #[test]
+fn scores_come_as_rows_as_well() {
+    let gold = include_str!("../corpus/templates.jsonl").lines().next().expect("a description");
+    let gold: serde_json::Value = serde_json::from_str(gold).expect("JSON");
+    let record = serde_json::json!({"id": gold["id"], "text": gold["text"]}).to_string();
+    let rows = run("evaluate", &["score", "--part", "--format", "csv"], pipe(&["chunk", "ground"], &record));
+    let rows = rows.expect_code(0).out;
+    assert!(rows.starts_with("by,group,measure,hit,of,share,low,high\nall,all,brackets found,"), "{rows}");
+}
+
+#[test]
 fn a_table_that_is_taken_for_sentences_is_said_to_be_one() {
     let ran = run("chunk", &[], "id,text\n1,go left\n").expect_code(1);
     assert!(ran.err.contains("<stdin>:1:1: this reads like the heading of a table"), "{}", ran.err);
