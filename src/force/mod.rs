@@ -21,6 +21,7 @@
 //! ```
 
 mod between;
+mod boxes;
 mod degree;
 mod describe;
 mod frame;
@@ -37,8 +38,10 @@ pub mod raster;
 mod relation;
 mod rose;
 mod shape;
+mod shape_error;
 mod stage;
 mod surround;
+mod validity;
 mod wording;
 
 pub use between::between;
@@ -50,7 +53,8 @@ pub use kernel::{Force, Infinite};
 pub use main_direction::main_direction;
 pub use name::{ForceName, FrameName};
 pub use relation::Relation;
-pub use shape::{Shape, ShapeError};
+pub use shape::Shape;
+pub use shape_error::ShapeError;
 pub use stage::{Describer, Pictures};
 pub use surround::surround;
 pub use wording::{Assessment, Closeness};
