@@ -31,7 +31,7 @@ pub fn text_of(record: &Record) -> Result<String, StageError> {
         let what = delivery.objects.join(" and ").replace('_', " ");
         format!("delivered: {what} {}", delivery.to.phrase())
     }));
-    lines.extend(doubts_of(record)?.into_iter().map(|doubt| format!("  !  {doubt}")));
+    lines.extend(doubts_of(record)?.iter().flat_map(|doubt| wrapped("  !  ", doubt, 5)));
     Ok(lines.join("\n"))
 }
 

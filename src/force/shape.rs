@@ -1,7 +1,6 @@
 //! Areal objects: rings with holes, in several parts.
 
 use super::ShapeError;
-use super::boxes::boxes_meet;
 use super::validity::{self, Ring};
 use crate::geometry::{Polygon, Vec2, cross, vec2};
 use crate::limits::SHAPE_CORNERS;

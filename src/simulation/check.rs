@@ -4,7 +4,7 @@ use super::{Item, Noise, PlacedObject, Scene};
 use crate::catalogue::CATEGORIES;
 use crate::frame::CameraMount;
 use crate::geometry::{Polygon, distance_to_segment, vec2};
-use crate::language::{Class, Lexicon, Noun};
+use crate::language::{Class, Lexicon};
 use crate::limits::{HOME_COORDINATE_M, ITEM_SIZE_M, SCENE_ITEMS, SCENE_OBJECTS};
 use crate::map::checker::{Checker, TOLERANCE_M, nearest_name};
 use crate::map::{Room, RoomMap, WorldError};
@@ -184,11 +184,7 @@ fn check_name(checker: &Checker, object: &PlacedObject, item: &str) -> Result<()
     checker.require(known.is_none_or(|noun| noun.class == Class::Object), item, || {
         format!("`{}` is furniture or a room to whoever says it; give it the name of a small thing", object.name)
     })?;
-    // One slip in a word of five letters, two in one of nine: heirlooms have names that no lexicon lists.
-    let most = if words.len() < 9 { words.len() / 5 } else { 2 };
-    let near = |noun: &&Noun| (1..=most).contains(&strsim::osa_distance(&noun.name.replace('_', " "), &words));
-    let things = lexicon.nouns().iter().filter(|noun| known.is_none() && noun.class == Class::Object);
-    let meant = things.filter(near).min_by_key(|noun| strsim::osa_distance(&noun.name, &words));
+    let meant = lexicon.mended(&words).filter(|noun| known.is_none() && noun.class == Class::Object);
     checker.require(meant.is_none(), item, || {
         let meant = meant.map_or("", |noun| noun.name.as_str());
         format!("`{}` is no name that sentences are read by; did you mean `{meant}`?", object.name)

@@ -27,12 +27,6 @@ use spatial_fetch::simulation::{Driver, Inventory, NoiseLevel, Settings, drawn};
 struct Arguments {
     #[command(flatten)]
     home: HomeArguments,
-    /// Say what there is in the home – rooms, doors, furniture, objects – and end; with --plot draw it, too
-    #[arg(long, help_heading = "Home")]
-    list: bool,
-    /// Look for an object that the simulated home does not have, too, in place of saying so at once
-    #[arg(long, help_heading = "Home")]
-    search_anyway: bool,
     /// How imperfect the simulated robot's wheels, sonars, compass and start are [default: default, with --serve off]
     #[arg(long, value_enum)]
     noise: Option<NoiseLevel>,
@@ -42,6 +36,12 @@ struct Arguments {
     /// Up to so many seconds more, differently each time
     #[arg(long, value_name = "SECONDS", value_parser = cli::within(cli::DELAY_S))]
     jitter: Option<f64>,
+    /// Say what there is in the home – rooms, doors, furniture, objects – and end; with --plot draw it, too
+    #[arg(long, help_heading = "Home")]
+    list: bool,
+    /// Look for an object that the simulated home does not have, too, in place of saying so at once
+    #[arg(long, help_heading = "Home")]
+    search_anyway: bool,
     #[command(flatten)]
     eyes: EyeArguments,
     #[command(flatten)]
