@@ -8,7 +8,7 @@ use super::paint::painted;
 use super::{Common, Exit, Failure, Format, Inputs, Source, open_output, read_file};
 use crate::escape::for_terminal;
 use crate::evaluation::robustness::{Robustness, robustness_tables};
-use crate::evaluation::{Gold, Scores, read_gold, text_tables, with_texts};
+use crate::evaluation::{Gold, Scores, csv_tables, read_gold, text_tables, with_texts};
 use crate::record::{Record, Shade};
 
 /// Scores with the line that stands over them.
@@ -104,7 +104,10 @@ pub fn read_lines(files: &[PathBuf]) -> Result<Vec<String>, Failure> {
 
 /// Writes scores as text or JSON; a record that was missing or doubled makes the run a lossy one.
 pub fn write_scores(common: &Common, table: &Table) -> Result<Exit, Failure> {
-    write_report(common, &table.scores, || text_tables(&table.title, &table.scores))?;
+    match common.format {
+        Format::Csv => write_text(common, &csv_tables(&table.scores))?,
+        _ => write_report(common, &table.scores, || text_tables(&table.title, &table.scores))?,
+    }
     let lossless =
         table.scores.missing.is_empty() && table.scores.doubled.is_empty() && table.scores.unknown.is_empty();
     Ok(if lossless { Exit::Done } else { Exit::Lost })
