@@ -23,7 +23,7 @@ use spatial_fetch::map::load_map;
 use spatial_fetch::perception::{Eyes, View};
 use spatial_fetch::record::{Record, Stage};
 use spatial_fetch::recording::Outputs;
-use spatial_fetch::robot::arcos::client::{ArcosBase, Settings};
+use spatial_fetch::robot::arcos::client::{ArcosBase, ArcosSettings};
 use spatial_fetch::robot::arcos::line::{Line, SerialLine};
 use spatial_fetch::robot::{MobileBase, RobotError};
 use spatial_fetch::simulation::arcos::{ServeAddress, Server, ServerSettings, serve};
@@ -237,7 +237,7 @@ fn the_stop_button_ends_a_trial_and_with_resume_only_interrupts_it() {
 /// A driver in this process, at the served robot's line, that sees through `eyes`; and what it says.
 fn own_driver(served: &Served, line: Box<dyn Line + Send>, eyes: Box<dyn Eyes + Send>) -> (RealDriver, Said) {
     let map = load_map(served.map().as_ref()).expect("a map");
-    let base = ArcosBase::connect(line, Settings::default(), map.start).expect("connects");
+    let base = ArcosBase::connect(line, ArcosSettings::default(), map.start).expect("connects");
     let said: Said = Arc::default();
     let hears = Arc::clone(&said);
     let tell = Arc::new(move |text: &str| hears.lock().expect("whole").push_str(&format!("{text}\n")));
@@ -313,7 +313,7 @@ fn a_panic_in_the_thread_that_talks_to_the_robot_stops_it_and_is_told_to_the_pro
     let served = Served::start(&[]);
     let panics = Arc::new(AtomicBool::new(false));
     let line = Panicking(serial(&served), Arc::clone(&panics));
-    let mut base = ArcosBase::connect(Box::new(line), Settings::default(), Pose::default()).expect("connects");
+    let mut base = ArcosBase::connect(Box::new(line), ArcosSettings::default(), Pose::default()).expect("connects");
     while served.speed() < 0.1 {
         base.drive(0.3, 0.0, 0.1).expect("drives");
     }

@@ -5,10 +5,12 @@
 //! stage computes.
 
 mod arguments;
+mod csv_input;
 mod diagnostic;
 mod exit;
 mod eyes;
 mod filter;
+mod foreign;
 mod frame_input;
 mod home;
 mod input;
@@ -17,14 +19,17 @@ mod line;
 mod log_input;
 mod number;
 mod output;
+mod paint;
 mod program;
 mod progress;
+mod rows;
 mod scores;
 mod source;
 mod threads;
 mod trial_options;
 
 pub use arguments::{ColorChoice, Common, Format};
+pub use csv_input::CsvLines;
 pub use diagnostic::{Diagnostic, Reporter};
 pub use exit::{Exit, Failure};
 pub use eyes::EyeArguments;

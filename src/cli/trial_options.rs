@@ -35,6 +35,7 @@ pub struct TrialOptions {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map: Option<String>,
     pub noise: NoiseLevel,
+    /// Seconds, where they are not those of the noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dead_time: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -4,7 +4,7 @@ use std::io;
 use std::time::Duration;
 
 use super::handshake::Handshake;
-use super::{ConnectError, Identity, Odometry, Report, Settings, guarded_speed};
+use super::{ArcosSettings, ConnectError, Identity, Odometry, Report, guarded_speed};
 use crate::geometry::Pose;
 use crate::robot::arcos::codec::{Command, Config, Counters, Decoder, number};
 use crate::robot::arcos::line::Line;
@@ -44,7 +44,7 @@ pub(super) struct Ask {
 pub struct Client<L: Line> {
     pub(super) line: L,
     pub(super) decoder: Decoder,
-    pub(super) settings: Settings,
+    pub(super) settings: ArcosSettings,
     pub(super) identity: Identity,
     pub(super) config: Config,
     pub(super) report: Report,
@@ -78,7 +78,7 @@ pub struct Client<L: Line> {
 
 impl<L: Line> Client<L> {
     /// Finds the robot, and brings it to stand ready with its motors on.
-    pub fn connect(mut line: L, settings: Settings) -> Result<Self, ConnectError> {
+    pub fn connect(mut line: L, settings: ArcosSettings) -> Result<Self, ConnectError> {
         let mut decoder = Decoder::patient();
         let mut handshake = Handshake::new(&mut line, &mut decoder);
         let (shaken, round_trip) = (handshake.run(), handshake.round_trip());
