@@ -265,7 +265,6 @@ struct Particular {
     next: u8,
     is_lost: bool,
     waiting: VecDeque<u8>,
-    due: Duration,
     heard: Rc<RefCell<Vec<u8>>>,
     sips_at: Option<Duration>,
     a_byte: Duration,
@@ -366,6 +365,8 @@ fn sonars_switched_off_by_one_client_hear_for_the_next() {
     first.line().write(&sonars_off.to_packet().to_bytes()).expect("memory");
     drop(first);
     let mut line = MemoryLine::new(Rc::clone(&robot));
+    // Its clock begins anew, the robot's does not.
+    line.sleep(Duration::from_secs(10));
     for sync in [0, 1, 2, number::OPEN] {
         line.write(&Packet::new(sync, Vec::new()).to_bytes()).expect("memory");
     }

@@ -227,6 +227,8 @@ impl<L: Line> Client<L> {
             return (0, 0);
         }
         if self.falls_silent(now) {
+            // What was asked for before the silence is not taken up after it.
+            self.ask = None;
             return (0, 0);
         }
         let (speed, why) = guarded_speed(ask.linear, &self.report);
@@ -238,7 +240,7 @@ impl<L: Line> Client<L> {
         ((speed * 1000.0) as i32, ask.angular.to_degrees().round() as i32)
     }
 
-    /// Whether the robot has not reported for so long that it would be driven blind; said when it begins and ends.
+    /// Whether the robot has not reported for so long that it would be driven blind; said when it begins.
     fn falls_silent(&mut self, now: Duration) -> bool {
         let cycle = Duration::from_millis(u64::from(self.config.sip_cycle_ms.unwrap_or(100)));
         let silence = SILENCE.max(cycle * SILENT_CYCLES);
