@@ -24,6 +24,6 @@ ground <<< "$chunked" | full plan -o "$disk/out.jsonl"
 sed -n 1,60p <<< "$chunked" | ground | plan | full drive -o "$disk/out.jsonl"
 shapes='{"a":{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]]]},"b":{"type":"Polygon","coordinates":[[[3,0],[4,0],[4,1],[3,0]]]}}'
 for _ in $(seq 100); do echo "$shapes"; done | full hof -o "$disk/out.jsonl"
-evaluate frames --count 40 --seed 3 --quiet -o "$frames"
+evaluate frames --count 40 --seed 3 --quiet --into "$frames"
 full perceive "$frames/index.jsonl" -o "$disk/out.jsonl"
 echo "a full disk is said, and nothing half-written stays"

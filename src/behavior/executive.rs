@@ -91,6 +91,15 @@ pub(super) struct Task<'p> {
     further: Vec<&'p str>,
 }
 
+impl Task<'_> {
+    /// Whether the words name neither a thing nor a place where one could be.
+    fn looks_for_nothing(&self) -> bool {
+        let wanted = &self.wanted;
+        let is_placed = wanted.target.is_some() || !wanted.pairs.is_empty();
+        self.object.is_none() && !is_placed && wanted.attributes.is_empty() && wanted.ordinal.is_none()
+    }
+}
+
 impl<'a> Executive<'a> {
     /// An executive for one trial.
     pub fn new(
@@ -162,6 +171,9 @@ impl<'a> Executive<'a> {
     /// One errand: to the room, inside it, find everything, bring it.
     fn errand(&mut self, actions: &[Action]) -> Result<(Outcome, String), Halt> {
         let mut task = self.task_of(actions);
+        if !self.options.blind && task.looks_for_nothing() {
+            return self.only_move(actions, &task);
+        }
         let mut why = String::new();
         for (i, room) in task.rooms.clone().iter().enumerate() {
             if let Err(halt) = self.enter(room) {
@@ -205,6 +217,26 @@ impl<'a> Executive<'a> {
         Ok((Outcome::NotFound, why))
     }
 
+    /// Where nothing to look for was named, the robot goes where it was told to: into the room that was said, else
+    /// from where it stands.
+    fn only_move(&mut self, actions: &[Action], task: &Task) -> Result<(Outcome, String), Halt> {
+        let said = actions.iter().find_map(|action| match action {
+            Action::Enter { room, .. } => room.as_deref(),
+            _ => None,
+        });
+        if let Some(room) = said {
+            self.enter(room)?;
+        }
+        let here = self.map.room_at(self.pilot.pose().position()).map(|room| room.name.clone());
+        let Some(here) = here else { return Ok((Outcome::Arrived, "nothing to look for was named".to_string())) };
+        let frame = RoomFrame::of(self.map, &here, self.pilot.pose());
+        for action in &task.steps {
+            self.step(action, &frame)?;
+        }
+        let place = self.map.room_at(self.pilot.pose().position()).map_or(here, |room| room.name.clone());
+        Ok((Outcome::Arrived, format!("in the {}; nothing to look for was named", place.replace('_', " "))))
+    }
+
     fn task_of<'p>(&self, actions: &'p [Action]) -> Task<'p> {
         let wanted = Wanted::default();
         let mut task = Task { rooms: Vec::new(), steps: Vec::new(), wanted, object: None, further: Vec::new() };
@@ -245,7 +277,8 @@ impl<'a> Executive<'a> {
         if outline.contains(self.pilot.pose().position()) {
             self.pilot.because("already there");
         } else if let Some(entry) = self.map.entry_pose(room) {
-            self.pilot.because(format!("the {name} is entered at ({:.1}, {:.1})", entry.x, entry.y));
+            let reason = format!("the {name} is entered at ({:.1}, {:.1})", entry.x, entry.y);
+            self.pilot.because_plainly(reason, &format!("going into the {name}"));
             self.pilot.go_to_pose(entry)?;
         } else {
             self.pilot.go_into(&outline, &name)?;

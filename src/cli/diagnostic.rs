@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal, Write};
 
-use super::{ColorChoice, Common, Line};
+use super::{Common, Line};
 
 /// A message about one place of the input.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,13 +33,7 @@ pub struct Reporter {
 impl Reporter {
     /// A reporter for `program` under the given options.
     pub fn new(program: &'static str, common: &Common) -> Self {
-        let color = match common.color {
-            ColorChoice::Always => true,
-            ColorChoice::Never => false,
-            ColorChoice::Auto => {
-                io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
-            }
-        };
+        let color = common.color.holds(io::stderr().is_terminal());
         Self { program, color, quiet: common.quiet }
     }
 
@@ -56,6 +50,12 @@ impl Reporter {
     /// Reports what ended the run.
     pub fn fatal(&self, message: &str) {
         self.line("31", message);
+    }
+
+    /// What a record came to, as it is asked for: without the program's name before each line.
+    pub fn tell(&self, text: &str) {
+        // Nowhere left to complain when standard error is closed.
+        let _ = io::stderr().lock().write_all(format!("{text}\n").as_bytes());
     }
 
     /// A remark that `--quiet` leaves out.

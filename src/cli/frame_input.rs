@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 
-use super::filter::{Outcome, finish, run_source};
+use super::filter::{Outcome, finish, refuse_rows, run_source};
 use super::log_input::Bytes;
 use super::{Common, Diagnostic, Exit, Failure, FromLog, Inputs, Line, Source};
 use crate::perception::Told;
@@ -195,6 +195,8 @@ pub fn run_frames(
     stage: &dyn Stage,
     see: &See,
 ) -> Result<Exit, Failure> {
+    refuse_rows(program, common, stage)?;
+    let style = common.style();
     run_source(program, common, logs, &|item: &FrameItem| {
         let mut record = Record::default();
         record.set("id", &item.ordinal.to_string());
@@ -203,7 +205,7 @@ pub fn run_frames(
         record.set("log_ns", &item.timed.log_ns);
         record.set("robot_pose", &item.timed.robot);
         let mut outcome = Outcome::default();
-        finish(&item.line(), record, common.format, stage, &|record| see(&item.timed, record), &mut outcome);
+        finish(&item.line(), record, style, stage, &|record| see(&item.timed, record), &mut outcome);
         outcome
     })
 }

@@ -12,6 +12,15 @@ use crate::limits::LINE_BYTES;
 /// Large enough that a batch keeps several threads busy, small enough to stay in cache.
 const BUFFER_BYTES: usize = 1 << 18;
 
+/// Larger files are not read once more to count their lines.
+const COUNTED_BYTES: u64 = 1 << 28;
+
+/// The lines of a file that hold more than their end.
+fn count_lines(file: File) -> Option<u64> {
+    let lines = BufReader::with_capacity(BUFFER_BYTES, file).split(b'\n');
+    lines.map(|line| line.ok().map(|line| u64::from(!line.trim_ascii().is_empty()))).sum()
+}
+
 /// The text of a file.
 pub fn read_file(path: &Path) -> Result<String, Failure> {
     std::fs::read_to_string(path).map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))
@@ -45,6 +54,16 @@ impl Inputs {
         Self { waiting: VecDeque::new(), current, ordinal: 0 }
     }
 
+    /// How many lines there are, where all of them lie in files.
+    fn count(&self) -> Option<u64> {
+        let lines = |path: &PathBuf| {
+            let path = if path == Path::new("-") { Path::new("/dev/stdin") } else { path };
+            let file = path.metadata().ok().filter(|found| found.is_file() && found.len() <= COUNTED_BYTES);
+            file.and_then(|_| File::open(path).ok()).and_then(count_lines)
+        };
+        if self.current.is_some() { None } else { self.waiting.iter().map(lines).sum() }
+    }
+
     fn has_line_ready(&self) -> bool {
         self.current.as_ref().is_some_and(|source| source.reader.buffer().contains(&b'\n'))
     }
@@ -68,6 +87,10 @@ impl Inputs {
 }
 
 impl Source<Line> for Inputs {
+    fn total(&self) -> Option<u64> {
+        self.count()
+    }
+
     /// A batch ends where the input pauses, so that a person who types a line gets the answer before the next.
     fn next_batch(&mut self, limit: usize) -> Result<Vec<Line>, Failure> {
         let mut batch = Vec::new();
@@ -84,12 +107,21 @@ impl Source<Line> for Inputs {
     }
 }
 
+/// Why a file cannot be read; a sentence in the place of a file's name is told where it belongs.
+fn not_opened(path: &Path, error: &io::Error) -> Failure {
+    let name = path.display().to_string();
+    let is_said = error.kind() == io::ErrorKind::NotFound && name.contains(' ') && !name.contains(['/', '.']);
+    let mend =
+        if is_said { format!("; what is said comes through a pipe: echo '{name}' | chunk") } else { String::new() };
+    Failure::Failed(format!("{name}: {error}{mend}"))
+}
+
 impl OpenFile {
     fn open(path: &Path) -> Result<Self, Failure> {
         let (file, inner): (Arc<str>, Box<dyn Read + Send>) = if path == Path::new("-") {
             ("<stdin>".into(), Box::new(io::stdin()))
         } else {
-            let opened = File::open(path).map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
+            let opened = File::open(path).map_err(|error| not_opened(path, &error))?;
             (path.display().to_string().into(), Box::new(opened))
         };
         Ok(Self { file, number: 0, reader: BufReader::with_capacity(BUFFER_BYTES, inner) })
@@ -142,6 +174,13 @@ mod tests {
         assert_eq!(texts, ["a", "b"]);
         let last = inputs.next_batch(10).expect("readable").remove(0);
         assert_eq!((last.bytes.as_slice(), last.terminated, last.number), (b"c".as_slice(), false, 3));
+    }
+
+    #[test]
+    fn lines_in_files_are_counted_before_they_are_read_and_blank_ones_are_none() {
+        let (_folder, inputs) = inputs(b"a\n\nb\n  \nc");
+        assert_eq!(inputs.total(), Some(3));
+        assert_eq!(Inputs::of("<stdin>", Box::new(io::empty())).total(), None);
     }
 
     #[test]

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use super::paint::painted;
 use super::{Common, Exit, Failure, Format, Inputs, Source, open_output, read_file};
 use crate::evaluation::robustness::{Robustness, robustness_tables};
 use crate::evaluation::{Gold, Scores, read_gold, text_tables, with_texts};
-use crate::record::Record;
+use crate::record::{Record, Shade};
 
 /// Scores with the line that stands over them.
 #[derive(Clone, Debug, Serialize)]
@@ -61,7 +62,14 @@ pub fn find_description(files: &[PathBuf], id: Option<&str>) -> Result<(String, 
 /// Writes a report as JSON, or as the text that `table` draws.
 pub fn write_report(common: &Common, report: &impl Serialize, table: impl FnOnce() -> String) -> Result<(), Failure> {
     let written = match common.format {
-        Format::Text => table(),
+        Format::Text => {
+            let shade = |number, _: &str| if number == 0 { Shade::Said } else { Shade::Plain };
+            let (text, style) = (table(), common.style());
+            if style.color { painted(&text, shade) } else { text }
+        }
+        Format::Csv => {
+            return Err(Failure::Usage("--format csv: this has no rows; json and text are written".to_string()));
+        }
         Format::Json => serde_json::to_string(report).map_err(|e| Failure::Failed(e.to_string()))?,
     };
     write_text(common, &written)

@@ -49,7 +49,7 @@ pub use merge::{merge_scores, only_with_records};
 pub use model::training_record;
 pub use paper::{Case, Cell, Column, Experiments, Paper, PaperTable, Row, Source, paper_csv, paper_text};
 pub use pipeline::{Pipeline, Understood};
-pub use report::write_report;
+pub use report::{write_report, write_trials};
 pub use score::{Group, Scores, run_corpus, score};
 pub use table::text_tables;
 pub use training_frame::write_training_frame;

@@ -4,9 +4,7 @@ use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::{Mutex, PoisonError};
 
-use serde::Deserialize;
-
-use crate::record::Detection;
+use super::answer::Answer;
 
 /// A running command. Frames go to it one at a time, and it answers each before the next.
 #[derive(Debug)]
@@ -20,12 +18,6 @@ struct Running {
     child: Child,
     input: Option<ChildStdin>,
     output: BufReader<ChildStdout>,
-}
-
-/// What the command answers for a frame; other keys are its own.
-#[derive(Deserialize)]
-struct Answer {
-    detections: Vec<Detection>,
 }
 
 /// Why the command gave no detections.
@@ -48,15 +40,15 @@ impl ExternalDetector {
         Ok(Self { command: command.to_string(), running: Mutex::new(Running { child, input, output }) })
     }
 
-    /// The command's detections in the frame that `record` names (one JSON object, without line breaks).
-    pub fn detect(&self, record: &str) -> Result<Vec<Detection>, ExternalError> {
+    /// The command's answer for the frame that `record` names (one JSON object, without line breaks).
+    pub fn detect(&self, record: &str) -> Result<Answer, ExternalError> {
         let mut running = self.running.lock().unwrap_or_else(PoisonError::into_inner);
         running.ask(record).map_err(|what| ExternalError { command: self.command.clone(), what })
     }
 }
 
 impl Running {
-    fn ask(&mut self, record: &str) -> Result<Vec<Detection>, String> {
+    fn ask(&mut self, record: &str) -> Result<Answer, String> {
         let written = self.input.as_mut().map(|input| writeln!(input, "{record}").and_then(|()| input.flush()));
         let mut answer = String::new();
         let read = self.output.read_line(&mut answer).map_err(|error| format!("its answer cannot be read: {error}"))?;
@@ -64,14 +56,11 @@ impl Running {
             return Err(self.ended(written.is_some_and(|written| written.is_err())));
         }
         let parsed: Result<Answer, _> = serde_json::from_str(&answer);
-        let shape = "for each frame it must write one line with `detections`, as `perceive --schema` describes them";
-        parsed.map(|answer| answer.detections).map_err(|error| {
-            format!(
-                "its answer, column {}: {}; {shape}",
-                error.column(),
-                crate::record::message_without_position(&error)
-            )
-        })
+        let shape = "for each frame it must write one line with `detections`, as `perceive --schema` describes them, or \
+                     `boxes` (docs/perception.md)";
+        let parsed = parsed
+            .map_err(|error| format!("column {}: {}", error.column(), crate::record::message_without_position(&error)));
+        parsed.and_then(Answer::checked).map_err(|what| format!("its answer, {what}; {shape}"))
     }
 
     fn ended(&mut self, refused: bool) -> String {
@@ -99,8 +88,8 @@ mod tests {
     fn a_command_answers_frame_by_frame() {
         let echo = r#"while read frame; do echo '{"detections":[]}'; done"#;
         let detector = ExternalDetector::start(echo).expect("started");
-        assert_eq!(detector.detect("{}").expect("an answer"), []);
-        assert_eq!(detector.detect("{}").expect("an answer"), []);
+        assert_eq!(detector.detect("{}").expect("an answer").detections, Some(Vec::new()));
+        assert_eq!(detector.detect("{}").expect("an answer").detections, Some(Vec::new()));
     }
 
     #[test]

@@ -113,6 +113,16 @@ impl<'line> Record<'line> {
         if raw.starts_with('"') { serde_json::from_str(raw).ok() } else { Some(raw.to_string()) }
     }
 
+    /// The keys whose values are texts, numbers, truth values or null, with the values as text; null is empty.
+    pub fn scalars(&self) -> impl Iterator<Item = (&str, String)> {
+        self.fields.iter().filter_map(|(key, raw)| match raw.get() {
+            "null" => Some((key.as_ref(), String::new())),
+            text if text.starts_with('"') => Some((key.as_ref(), serde_json::from_str(text).ok()?)),
+            other if other.starts_with(['{', '[']) => None,
+            other => Some((key.as_ref(), other.to_string())),
+        })
+    }
+
     /// Bytes from the start of the line to `value`, when it is a slice of the line.
     fn offset_of(&self, value: &str) -> Option<usize> {
         let offset = (value.as_ptr() as usize).checked_sub(self.line.as_ptr() as usize)?;

@@ -76,6 +76,27 @@ pub enum Outcome {
     LinkLost,
 }
 
+impl Outcome {
+    /// The name as it stands in records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Found => "found",
+            Self::Arrived => "arrived",
+            Self::NotFound => "not_found",
+            Self::Blocked => "blocked",
+            Self::Stuck => "stuck",
+            Self::Timeout => "timeout",
+            Self::Stopped => "stopped",
+            Self::LinkLost => "link_lost",
+        }
+    }
+
+    /// The name in words.
+    pub fn phrase(self) -> String {
+        self.name().replace('_', " ")
+    }
+}
+
 /// One action as it went.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ActionReport {

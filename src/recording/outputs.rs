@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::live::Live;
+use super::narrator::{Narration, Narrator};
+use super::story::{Stories, Story, Told};
 use crate::behavior::Run;
 use crate::drawing::{Outline, Plot};
 use crate::files::{FileError, write_file};
@@ -22,6 +24,22 @@ pub struct TruePiece {
     pub corners: Vec<Vec2>,
     /// Metres.
     pub height: f64,
+    /// Where its front points, radians, where it has one.
+    pub front: Option<f64>,
+    /// The small things on it: what they are, and where they lie.
+    pub holds: Vec<(String, Vec2)>,
+}
+
+impl TruePiece {
+    /// Its name in words: "hexagon table 1".
+    pub fn spoken(&self) -> String {
+        spoken(&self.id)
+    }
+}
+
+/// A name of a scene in words: "hexagon-table-1" is "hexagon table 1".
+pub fn spoken(id: &str) -> String {
+    id.replace(['-', '_'], " ")
 }
 
 /// Where the files go; `{id}` in a name stands for the record's id.
@@ -41,9 +59,28 @@ pub struct Outputs {
     pub force: bool,
     /// How the trial is run, for the log: a JSON line, or nothing.
     pub options: String,
+    /// Who is told what the robot does, while it does it.
+    pub narration: Option<Narration>,
+    /// Where trials are kept to be shown.
+    pub stories: Option<Arc<Stories>>,
 }
 
 impl Outputs {
+    /// One who tells of a trial, where that is wanted.
+    pub fn narrator(&self, id: &str, record: &Record) -> Option<Narrator> {
+        self.narration.as_ref().map(|narration| Narrator::begin(narration, id, record))
+    }
+
+    /// One who keeps what happens, where that is wanted.
+    pub fn story(&self) -> Option<Story> {
+        self.stories.as_ref().map(|_| Story::default())
+    }
+
+    /// Keeps a trial to be shown.
+    pub fn tell(&self, told: Told) {
+        self.stories.iter().for_each(|stories| stories.tell(told.clone()));
+    }
+
     /// The path with the record's id in it.
     pub(super) fn named(path: &Path, id: &str) -> PathBuf {
         PathBuf::from(path.to_string_lossy().replace("{id}", &file_name(id)))
@@ -52,19 +89,34 @@ impl Outputs {
     /// Draws the way of a trial through the rooms, past what truly stands there where that is known.
     pub fn draw_plot(map: &RoomMap, truth: &[TruePiece], run: &Run, title: &str) -> String {
         let found = run.trial.target_id.as_deref();
+        let visits = |id: &str| {
+            let approached = run.trial.approached.iter().enumerate();
+            approached.filter(|(_, other)| *other == id).map(|(i, _)| i + 1).collect()
+        };
         let furniture = truth.iter().map(|piece| Outline {
-            label: piece.noun.replace('_', " "),
+            label: piece.spoken(),
             corners: piece.corners.clone(),
             found: found == Some(piece.id.as_str()),
+            front: piece.front,
+            visits: visits(&piece.id),
         });
+        let things = truth.iter().flat_map(|piece| &piece.holds);
+        let sought = things.filter(|(name, _)| run.sought.as_ref() == Some(name)).cloned();
         let plot = Plot {
             title: title.to_string(),
-            caption: format!("{} – {:.1} m in {:.0} s", run.trial.why, run.trial.distance_m.0, run.trial.duration_s.0),
+            caption: format!(
+                "{}: {} – {:.1} m in {:.0} s",
+                run.trial.outcome.phrase(),
+                run.trial.why,
+                run.trial.distance_m.0,
+                run.trial.duration_s.0
+            ),
             rooms: map.rooms.iter().map(|room| (room.name.clone(), room.polygon().centroid())).collect(),
             walls: map.walls(),
             furniture: furniture.collect(),
             path: run.trial.path.iter().map(|point| point.pose()).collect(),
             found_at: run.found_at,
+            sought: sought.collect(),
         };
         plot.to_svg()
     }

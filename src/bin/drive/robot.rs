@@ -11,7 +11,7 @@ use spatial_fetch::field::{NoEyes, RealDriver, StreamEyes, Tell};
 use spatial_fetch::perception::Eyes;
 use spatial_fetch::recording::Outputs;
 use spatial_fetch::robot::RealBase;
-use spatial_fetch::robot::arcos::client::{ArcosBase, Settings};
+use spatial_fetch::robot::arcos::client::{ArcosBase, ArcosSettings};
 use spatial_fetch::robot::arcos::line::{Address, Line};
 use spatial_fetch::robot::arcos::parameters::Parameters;
 use spatial_fetch::robot::p3dx::SonarArray;
@@ -85,11 +85,11 @@ impl Arguments {
         self.robot != Address::Sim || self.dry_run
     }
 
-    fn settings(&self) -> Settings {
-        Settings {
+    fn settings(&self) -> ArcosSettings {
+        ArcosSettings {
             speed: self.max_speed,
             acceleration: self.max_acceleration,
-            braking: self.max_acceleration.max(Settings::default().braking),
+            braking: self.max_acceleration.max(ArcosSettings::default().braking),
             deadline: Duration::from_millis(self.deadline),
             resume: self.resume,
             reconnect: self.reconnect.map(Duration::from_secs),
@@ -98,7 +98,7 @@ impl Arguments {
                 Model::P3dx => Parameters::P3DX,
             }),
             sonars: self.sonars,
-            ..Settings::default()
+            ..ArcosSettings::default()
         }
     }
 
@@ -107,7 +107,7 @@ impl Arguments {
         self,
         home: &Home,
         reporter: &Reporter,
-        how: simulation::Settings,
+        how: simulation::TrialSettings,
         force: bool,
     ) -> Result<Exit, Failure> {
         let Some(address) = self.serve else { return Ok(Exit::Done) };
