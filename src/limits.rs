@@ -197,18 +197,18 @@ pub const MESH_LAYERS: Limit = Limit {
     lifted_by: None,
 };
 
-/// Cells of a sheet, empty ones within its box included.
+/// Cells of a sheet.
 pub const SHEET_CELLS: Limit = Limit {
     name: "a sheet to import",
     value: 1 << 20,
     unit: "cells",
-    reason: "a stray cell in the last row and column would make 17 thousand million of them",
+    reason: "a file of a few bytes can claim 4 thousand million",
     lifted_by: None,
 };
 
-/// Bytes of a part of a spreadsheet file, unpacked.
+/// Bytes of all parts of a spreadsheet file, unpacked.
 pub const SHEET_PART_BYTES: Limit = Limit {
-    name: "a part of a spreadsheet, unpacked",
+    name: "a spreadsheet, unpacked",
     value: 1 << 26,
     unit: "bytes",
     reason: "a small file can unpack to any size",

@@ -264,7 +264,7 @@ impl<'a> Pilot<'a> {
         if self.watcher.wants_stop() {
             return Err(Halt::Stopped);
         }
-        self.idle.passed((linear, angular), self.base.velocity(), time_s)?;
+        self.idle.passed((linear, angular), self.base.velocity(), time_s).map_err(Halt::Stuck)?;
         if time_s > self.time_limit_s { Err(Halt::Timeout) } else { Ok(()) }
     }
 }

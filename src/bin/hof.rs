@@ -3,7 +3,7 @@
 use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
 use spatial_fetch::files::Claims;
-use spatial_fetch::force::{Describer, ForceName, FrameName, Pictures, raster::Fuzzy};
+use spatial_fetch::force::{AxesName, Describer, ForceName, Pictures, raster::Fuzzy};
 
 /// Histogram of forces: where is A, seen from B?
 ///
@@ -19,7 +19,7 @@ struct Arguments {
     directions: u32,
     /// Frame that names directions: map, robot, intrinsic, viewer, facing; all but map read "heading" (radians)
     #[arg(long, value_name = "FRAME", default_value = "map")]
-    frame: FrameName,
+    frame: AxesName,
     /// How memberships of fuzzy cells combine: product or minimum
     #[arg(long, value_name = "HOW", default_value = "product")]
     fuzzy: Fuzzy,

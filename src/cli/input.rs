@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::{Diagnostic, Failure, Line, Source};
+use crate::limits::LINE_BYTES;
 
 /// Large enough that a batch keeps several threads busy, small enough to stay in cache.
 const BUFFER_BYTES: usize = 1 << 18;
@@ -196,11 +197,17 @@ impl OpenFile {
 
     fn read_line(&mut self) -> Result<Option<(Vec<u8>, bool)>, Unreadable> {
         let mut bytes = Vec::new();
-        let read = self.reader.read_until(b'\n', &mut bytes);
+        let read = self.reader.by_ref().take(LINE_BYTES.value + 1).read_until(b'\n', &mut bytes);
         if read.map_err(|error| Unreadable(self.file.to_string(), error))? == 0 {
             return Ok(None);
         }
         self.number += 1;
+        if bytes.len() as u64 > LINE_BYTES.value {
+            let most = LINE_BYTES.value;
+            let what = format!("longer than the {most} bytes that are taken of {}", LINE_BYTES.name);
+            let file = format!("{}:{}", self.file, self.number);
+            return Err(Unreadable(file, io::Error::new(io::ErrorKind::FileTooLarge, what)));
+        }
         let terminated = bytes.last() == Some(&b'\n');
         if terminated {
             bytes.pop();
@@ -208,7 +215,8 @@ impl OpenFile {
         if bytes.last() == Some(&b'\r') {
             bytes.pop();
         }
-        if self.number == 1 && bytes.starts_with(b"\xef\xbb\xbf") {
+        // Files joined by `cat` have such marks in the middle; no line begins with one on purpose.
+        if bytes.starts_with(b"\xef\xbb\xbf") {
             bytes.drain(..3);
         }
         Ok(Some((bytes, terminated)))
@@ -242,6 +250,20 @@ mod tests {
         let (_folder, inputs) = inputs(b"a\n\nb\n  \nc");
         assert_eq!(inputs.total(), Some(3));
         assert_eq!(Inputs::of("<stdin>", Box::new(io::empty())).total(), None);
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_taken_off_in_the_middle_as_well() {
+        let (_folder, mut inputs) = inputs(b"\xef\xbb\xbfa\n\xef\xbb\xbfb\n");
+        let texts: Vec<_> = inputs.next_batch(10).expect("readable").into_iter().map(|line| line.bytes).collect();
+        assert_eq!(texts, [b"a", b"b"]);
+    }
+
+    #[test]
+    fn a_line_without_an_end_is_refused() {
+        let endless = Box::new(io::repeat(b'a'));
+        let error = Inputs::of("endless", endless).next_batch(1).expect_err("too long").to_string();
+        assert!(error.starts_with("endless:1: longer than the 67108864 bytes"), "{error}");
     }
 
     #[test]

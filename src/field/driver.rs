@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use super::frame_stream::Tell;
 use crate::behavior::{
-    Executive, Furniture, Options, Run, Several, Silent, Watcher, object_of, plan_of, rounded, row_of, shade_of,
-    text_of,
+    Executive, Furniture, Options, Run, Several, Silent, Watcher, note_of, object_of, plan_of, rounded, row_of,
+    shade_of, text_of,
 };
 use crate::frame::{Camera, RgbdFrame};
 use crate::geometry::{ClearanceGrid, Pose};
@@ -156,7 +156,7 @@ impl RealDriver {
             let written = recorder.finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line);
             lost.extend(written.err().map(|error| error.to_string()));
         }
-        Ok(Note::of(&lost))
+        Ok(note_of(&run.trial).and(lost))
     }
 }
 

@@ -12,10 +12,8 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, sync
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use serde::Deserialize;
-
+use super::answer::Answer;
 use crate::limits::{DETECTOR_ANSWER_BYTES, DETECTOR_SECONDS};
-use crate::record::Detection;
 
 /// A command that hears that there are no more frames ends within this.
 const ENDS_WITHIN: Duration = Duration::from_secs(5);
@@ -38,15 +36,6 @@ struct Running {
     asked: u64,
     /// Why it is asked no more.
     failed: Option<String>,
-}
-
-/// What the command answers for a frame; other keys are its own.
-#[derive(Deserialize)]
-struct Answer {
-    detections: Vec<Detection>,
-    /// The frame's, when it is told.
-    #[serde(default)]
-    number: Option<u64>,
 }
 
 /// Why the command gave no detections.
@@ -113,9 +102,9 @@ impl ExternalDetector {
         self.ender.0.pictures.path()
     }
 
-    /// The command's detections in a frame: `line` makes the JSON object that names it, without line breaks, for the
+    /// The command's answer for a frame: `line` makes the JSON object that names it, without line breaks, for the
     /// number the frame gets.
-    pub fn detect(&self, line: impl FnOnce(u64) -> Result<String, String>) -> Result<Vec<Detection>, ExternalError> {
+    pub fn detect(&self, line: impl FnOnce(u64) -> Result<String, String>) -> Result<Answer, ExternalError> {
         let mut running = self.running.lock().unwrap_or_else(PoisonError::into_inner);
         let answered = running.ask(line);
         if running.failed.is_some() {
@@ -175,7 +164,7 @@ fn hear(output: ChildStdout, answers: &SyncSender<io::Result<Vec<u8>>>) {
 }
 
 impl Running {
-    fn ask(&mut self, line: impl FnOnce(u64) -> Result<String, String>) -> Result<Vec<Detection>, String> {
+    fn ask(&mut self, line: impl FnOnce(u64) -> Result<String, String>) -> Result<Answer, String> {
         if let Some(why) = &self.failed {
             return Err(format!("not asked any more: it {why}"));
         }
@@ -206,18 +195,18 @@ impl Running {
         self.understood(&answer, number)
     }
 
-    fn understood(&mut self, answer: &[u8], number: u64) -> Result<Vec<Detection>, String> {
+    fn understood(&mut self, answer: &[u8], number: u64) -> Result<Answer, String> {
         let parsed: Result<Answer, _> = serde_json::from_slice(answer);
-        let shape = "for each frame it must write one line with `detections`, as `perceive --schema` describes them";
-        let answer = parsed.map_err(|error| {
-            let what = crate::record::message_without_position(&error);
-            format!("its answer, column {}: {what}; {shape}", error.column())
-        })?;
+        let shape = "for each frame it must write one line with `detections`, as `perceive --schema` describes them, or \
+                     `boxes` (docs/perception.md)";
+        let parsed = parsed
+            .map_err(|error| format!("column {}: {}", error.column(), crate::record::message_without_position(&error)));
+        let answer = parsed.and_then(Answer::checked).map_err(|what| format!("its answer, {what}; {shape}"))?;
         match answer.number {
             Some(other) if other != number => {
                 self.fail(format!("answered frame {other} when it was asked about frame {number}"))
             }
-            _ => Ok(answer.detections),
+            _ => Ok(answer),
         }
     }
 
@@ -267,8 +256,10 @@ mod tests {
         ExternalDetector::start(command, Some(Duration::from_millis(700))).expect("started")
     }
 
-    fn ask(detector: &ExternalDetector) -> Result<Vec<Detection>, String> {
-        detector.detect(|number| Ok(format!("{{\"number\":{number}}}"))).map_err(|error| error.to_string())
+    /// How many pieces it answers.
+    fn ask(detector: &ExternalDetector) -> Result<usize, String> {
+        let answer = detector.detect(|number| Ok(format!("{{\"number\":{number}}}")));
+        answer.map(|answer| answer.detections.map_or(0, |pieces| pieces.len())).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -278,8 +269,8 @@ mod tests {
             r#"while read frame; do echo "$frame" | sed 's/}/,"detections":[]}/'; done"#,
         ] {
             let detector = started(echo);
-            assert_eq!(ask(&detector), Ok(vec![]));
-            assert_eq!(ask(&detector), Ok(vec![]));
+            assert_eq!(ask(&detector), Ok(0));
+            assert_eq!(ask(&detector), Ok(0));
             detector.finish().expect("a good end");
         }
     }
@@ -312,7 +303,7 @@ mod tests {
     #[test]
     fn an_answer_to_another_frame_is_taken_for_none() {
         let twice = started(r#"while read frame; do echo '{"detections":[]}'; echo '{"detections":[]}'; done"#);
-        assert_eq!(ask(&twice), Ok(vec![]));
+        assert_eq!(ask(&twice), Ok(0));
         std::thread::sleep(Duration::from_millis(200));
         assert!(ask(&twice).expect_err("shifted").contains("more often than it was asked"));
         let wrong = started(r#"while read frame; do echo '{"detections":[],"number":7}'; done"#);
@@ -322,7 +313,7 @@ mod tests {
     #[test]
     fn how_a_command_ends_is_told() {
         let detector = started(r#"read frame; echo '{"detections":[]}'; exit 9"#);
-        assert_eq!(ask(&detector), Ok(vec![]));
+        assert_eq!(ask(&detector), Ok(0));
         assert!(detector.finish().expect_err("a failure").to_string().contains("exit status: 9"));
     }
 

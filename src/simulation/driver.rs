@@ -1,8 +1,8 @@
 //! `drive` as a stage of the pipeline.
 
 use super::missing::missing;
-use super::{Home, Settings, run, stream_of};
-use crate::behavior::{Run, Several, Watcher, plan_of, row_of, shade_of, text_of};
+use super::{Home, TrialSettings, run, stream_of};
+use crate::behavior::{Run, Several, Watcher, note_of, plan_of, row_of, shade_of, text_of};
 use crate::frame::RgbdFrame;
 use crate::record::{Note, Plan, Record, Row, Shade, Stage, StageError};
 use crate::recording::{About, Outputs, Recorder, Told};
@@ -13,7 +13,7 @@ pub struct Driver {
     /// Where.
     pub home: Home,
     /// How.
-    pub settings: Settings,
+    pub settings: TrialSettings,
     /// What to leave beside the record.
     pub outputs: Outputs,
     /// Whether what the home does not have is looked for all the same.
@@ -61,7 +61,7 @@ impl Driver {
             let written = recorder.finish(run.trial.duration_s.0, png, &line()?);
             lost.extend(written.err().map(|error| error.to_string()));
         }
-        Ok(Note::of(&lost))
+        Ok(note_of(&run.trial).and(lost))
     }
 
     /// Runs a plan, unless the home does not have what it looks for.

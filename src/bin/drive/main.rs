@@ -9,11 +9,12 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use spatial_fetch::cli::{
-    self, Common, Exit, EyeArguments, Failure, FromLog, HomeArguments, Intake, Program, Reporter,
+    self, Common, DEAD_TIME_S, Exit, EyeArguments, Failure, FromLog, HomeArguments, Intake, JITTER_S, Program,
+    Reporter, within,
 };
 use spatial_fetch::files::write_file;
 use spatial_fetch::record::Trial;
-use spatial_fetch::simulation::{Driver, Inventory, NoiseLevel, Settings, drawn};
+use spatial_fetch::simulation::{Driver, Inventory, NoiseLevel, TrialSettings, drawn};
 
 /// Drives the robot by its plan, through furniture it has not seen before, and says what became of it.
 ///
@@ -31,10 +32,10 @@ struct Arguments {
     #[arg(long, value_enum)]
     noise: Option<NoiseLevel>,
     /// Seconds after which the simulated robot does what it is told, where it is not what its world says
-    #[arg(long, value_name = "SECONDS", value_parser = cli::within(cli::DELAY_S))]
+    #[arg(long, value_name = "SECONDS", value_parser = within(DEAD_TIME_S))]
     dead_time: Option<f64>,
     /// Up to so many seconds more, differently each time
-    #[arg(long, value_name = "SECONDS", value_parser = cli::within(cli::DELAY_S))]
+    #[arg(long, value_name = "SECONDS", value_parser = within(JITTER_S))]
     jitter: Option<f64>,
     /// Say what there is in the home – rooms, doors, furniture, objects – and end; with --plot draw it, too
     #[arg(long, help_heading = "Home")]
@@ -125,8 +126,8 @@ impl Arguments {
     }
 
     /// How the simulated robot is, with that noise where none is given.
-    fn settings(&self, usual: NoiseLevel) -> Settings {
-        Settings {
+    fn settings(&self, usual: NoiseLevel) -> TrialSettings {
+        TrialSettings {
             options: self.executive.options(),
             perception: self.eyes.perception,
             kinect: self.eyes.kinect(),

@@ -11,7 +11,7 @@ use spatial_fetch::cli::{Exit, Failure, Pause, Reporter, on_interrupt, on_suspen
 use spatial_fetch::field::{NoEyes, RealDriver, StreamEyes, Tell};
 use spatial_fetch::perception::Eyes;
 use spatial_fetch::recording::Outputs;
-use spatial_fetch::robot::arcos::client::{ArcosBase, Settings};
+use spatial_fetch::robot::arcos::client::{ArcosBase, ArcosSettings};
 use spatial_fetch::robot::arcos::line::{Address, Line};
 use spatial_fetch::robot::arcos::parameters::Parameters;
 use spatial_fetch::robot::arcos::standby::{self, GuardedLine};
@@ -87,11 +87,11 @@ impl Arguments {
         self.robot != Address::Sim || self.dry_run
     }
 
-    fn settings(&self) -> Settings {
-        Settings {
+    fn settings(&self) -> ArcosSettings {
+        ArcosSettings {
             speed: self.max_speed,
             acceleration: self.max_acceleration,
-            braking: self.max_acceleration.max(Settings::default().braking),
+            braking: self.max_acceleration.max(ArcosSettings::default().braking),
             deadline: Duration::from_millis(self.deadline),
             resume: self.resume,
             reconnect: self.reconnect.map(Duration::from_secs),
@@ -100,7 +100,7 @@ impl Arguments {
                 Model::P3dx => Parameters::P3DX,
             }),
             sonars: self.sonars,
-            ..Settings::default()
+            ..ArcosSettings::default()
         }
     }
 
@@ -109,7 +109,7 @@ impl Arguments {
         self,
         home: &Home,
         reporter: &Reporter,
-        how: simulation::Settings,
+        how: simulation::TrialSettings,
         force: bool,
     ) -> Result<Exit, Failure> {
         let Some(address) = self.serve else { return Ok(Exit::Done) };

@@ -49,11 +49,14 @@ struct Arguments {
     #[arg(long, value_name = "CONFIDENCE", default_value_t = 0.5, value_parser = cli::within(0.0..=1.0))]
     least_confidence: f64,
     /// A model that `evaluate train` made [default: the one built in]
-    #[arg(long, value_name = "FILE", conflicts_with = "detector")]
+    #[arg(long, value_name = "FILE", conflicts_with = "detector_only")]
     model: Option<PathBuf>,
-    /// A command that detects instead: a frame as a JSON line in, a line with "detections" out
+    /// A command that detects too: a frame as a JSON line in, a line with "detections" or "boxes" out
     #[arg(long, value_name = "CMD")]
     detector: Option<String>,
+    /// Leave all detecting to the command
+    #[arg(long, requires = "detector")]
+    detector_only: bool,
     /// Seconds that the command may take for one frame
     #[arg(long, value_name = "SECONDS", requires = "detector", default_value_t = DETECTOR_SECONDS.value as f64, value_parser = within(0.1..=86_400.0))]
     detector_patience: f64,
@@ -82,6 +85,7 @@ impl Arguments {
             folder: self.folder.clone().or(beside).unwrap_or_default(),
             detector: self.model.as_deref().map_or_else(|| Ok(Detector::default()), load_detector)?,
             external: external.map(Arc::new),
+            external_only: self.detector_only,
             map: self.map.as_deref().map(load_map).transpose().map_err(|e| failed(&e))?,
             told: Told { height_m: self.camera_height, tilt_deg: self.camera_tilt },
             least_confidence: self.least_confidence,

@@ -5,7 +5,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::{Client, ConnectError, Report, Settings};
+use super::{ArcosSettings, Client, ConnectError, Report};
 use crate::geometry::{Pose, wrap_angle};
 use crate::robot::arcos::line::Line;
 use crate::robot::{Body, Event, MobileBase, RealBase, Remote, RobotError, SonarReading, Status};
@@ -114,7 +114,7 @@ impl Remote for Stopper {
 
 impl ArcosBase {
     /// Connects to the robot on `line`, which stands at `start` in the map.
-    pub fn connect(line: Box<dyn Line + Send>, settings: Settings, start: Pose) -> Result<Self, ConnectError> {
+    pub fn connect(line: Box<dyn Line + Send>, settings: ArcosSettings, start: Pose) -> Result<Self, ConnectError> {
         let (resume, body) = (settings.resume, settings.body());
         let client = Client::connect(line, settings)?;
         let preflight = client.preflight();
@@ -235,6 +235,14 @@ impl Drop for ArcosBase {
 }
 
 impl MobileBase for ArcosBase {
+    fn age_s(&self) -> f64 {
+        self.report.age_s()
+    }
+
+    fn dead_time_s(&self) -> f64 {
+        self.report.dead_time.as_secs_f64()
+    }
+
     fn body(&self) -> Body {
         self.body
     }

@@ -46,7 +46,11 @@ impl SerialLine {
 fn open_port(device: &Path, baud: u32) -> io::Result<(File, TTYPort)> {
     // What the library says of a device it cannot open depends on its version: ask the system first.
     let second = std::fs::OpenOptions::new().read(true).write(true).open_nonblocking(device);
-    let second = second.map_err(|e| explain(device, e))?;
+    let second = second.map_err(|error| explain(device, error))?;
+    if !rustix::termios::isatty(&second) {
+        let text = format!("no serial line ({})", present_devices());
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, text));
+    }
     let name = device.to_string_lossy();
     let port = serialport::new(name, baud).timeout(WRITE_WITHIN).open_native().map_err(|error| match error.kind() {
         ErrorKind::Io(kind) => explain(device, io::Error::new(kind, error.description)),
@@ -73,13 +77,23 @@ fn explain(device: &Path, error: io::Error) -> io::Error {
     let text = match error.kind() {
         io::ErrorKind::PermissionDenied => {
             let group = std::fs::metadata(device).ok().and_then(|meta| group_name(meta.gid()));
-            let group = group.unwrap_or_else(|| "dialout".to_string());
-            format!("no permission; its group is `{group}`: run `sudo usermod -aG {group} $USER` and log in again")
+            // Nobody should join root for a cable.
+            match group.filter(|group| group != "root") {
+                Some(group) => {
+                    format!(
+                        "no permission; its group is `{group}`: run `sudo usermod -aG {group} $USER` and log in again"
+                    )
+                }
+                None => {
+                    let device = device.display();
+                    format!(
+                        "no permission; it is root's alone: run `sudo chgrp dialout {device} && sudo chmod g+rw {device}`, then `sudo usermod -aG dialout $USER`, and log in again"
+                    )
+                }
+            }
         }
         io::ErrorKind::NotFound => {
-            let present = serial_devices();
-            let present = if present.is_empty() { "no serial device is there".to_string() } else { present.join(" ") };
-            format!("no such device; is the adapter plugged in? ({present})")
+            format!("no such device; is the adapter plugged in? ({})", present_devices())
         }
         io::ErrorKind::ResourceBusy => return busy(device, "busy"),
         _ => error.to_string(),
@@ -117,6 +131,16 @@ fn group_name(id: u32) -> Option<String> {
     let groups = std::fs::read_to_string("/etc/group").ok()?;
     let fields = groups.lines().map(|line| line.split(':').collect::<Vec<_>>());
     fields.filter(|f| f.len() > 2).find(|f| f[2].parse() == Ok(id)).map(|f| f[0].to_string())
+}
+
+/// Which serial devices there are, for people.
+fn present_devices() -> String {
+    let present = serial_devices();
+    if present.is_empty() {
+        "no serial device is there".to_string()
+    } else {
+        format!("there is {}", present.join(", "))
+    }
 }
 
 fn serial_devices() -> Vec<String> {
@@ -191,8 +215,17 @@ mod tests {
         let device = tempfile::NamedTempFile::new().expect("a file");
         let group = group_name(device.path().metadata().expect("there").gid()).expect("a group with a name");
         let error = explain(device.path(), io::ErrorKind::PermissionDenied.into());
-        let text = format!("its group is `{group}`: run `sudo usermod -aG {group} $USER` and log in again");
+        let text = match group.as_str() {
+            "root" => "it is root's alone: run `sudo chgrp dialout".to_string(),
+            group => format!("its group is `{group}`: run `sudo usermod -aG {group} $USER` and log in again"),
+        };
         assert!(error.kind() == io::ErrorKind::PermissionDenied && error.to_string().contains(&text), "{error}");
+    }
+
+    #[test]
+    fn what_is_no_serial_line_is_refused() {
+        let error = SerialLine::open(Path::new("/dev/null"), None).err().expect("refused");
+        assert!(error.to_string().contains("no serial line"), "{error}");
     }
 
     #[test]
