@@ -205,7 +205,8 @@ impl OpenFile {
         if bytes.len() as u64 > LINE_BYTES.value {
             let most = LINE_BYTES.value;
             let what = format!("longer than the {most} bytes that are taken of {}", LINE_BYTES.name);
-            return Err(Unreadable(format!("{}:{}", self.file, self.number), io::Error::other(what)));
+            let file = format!("{}:{}", self.file, self.number);
+            return Err(Unreadable(file, io::Error::new(io::ErrorKind::FileTooLarge, what)));
         }
         let terminated = bytes.last() == Some(&b'\n');
         if terminated {

@@ -156,7 +156,7 @@ impl RealDriver {
             let written = recorder.finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line);
             lost.extend(written.err().map(|error| error.to_string()));
         }
-        Ok(if lost.is_empty() { note_of(&run.trial) } else { Note::of(&lost) })
+        Ok(note_of(&run.trial).and(lost))
     }
 }
 

@@ -15,7 +15,7 @@ pub struct Answer {
     /// Furniture with its place in the picture, which the depth tells the rest of.
     #[serde(default)]
     pub boxes: Option<Vec<PictureBox>>,
-    /// The frame's number, where it is told.
+    /// The number of the frame it answers, where it says so.
     #[serde(default)]
     pub number: Option<u64>,
 }

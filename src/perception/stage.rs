@@ -123,8 +123,8 @@ fn ask(external: &ExternalDetector, frame: &RgbdFrame, record: &Record) -> Resul
     answer.map_err(|error| StageError::new(error.to_string()))
 }
 
-/// The line that hands over a frame, with its number to be repeated; its pictures take the place of those of the frame
-/// before.
+/// The line that hands over a frame under a number, to be repeated in the answer; its pictures take the place of those
+/// of the frame before.
 fn handed(folder: &Path, frame: &RgbdFrame, record: &Record, number: u64) -> Result<String, String> {
     let failed = |error: &dyn std::fmt::Display| error.to_string();
     let (rgb, depth) = (folder.join("rgb.png"), folder.join("depth.png"));
@@ -133,12 +133,12 @@ fn handed(folder: &Path, frame: &RgbdFrame, record: &Record, number: u64) -> Res
     if has_color {
         write_file(&rgb, &frame.color_png(), true).map_err(|error| failed(&error))?;
     }
-    let files = FrameFiles { rgb: has_color.then_some(rgb), ..FrameFiles::of(frame, depth.clone(), depth) };
-    let files = serde_json::to_value(&files).map_err(|error| failed(&error))?;
+    let handed = FrameFiles { rgb: has_color.then_some(rgb), ..FrameFiles::of(frame, depth.clone(), depth) };
+    let handed = serde_json::to_value(&handed).map_err(|error| failed(&error))?;
     // What the frame's line says of its pictures is of other files; everything else it says is handed on.
     let mut line = record.without(&["rgb", "depth", "mask", "camera_height", "camera_tilt"]);
     line.set("number", &number);
-    files.as_object().into_iter().flatten().for_each(|(key, value)| line.set(key, value));
+    handed.as_object().into_iter().flatten().for_each(|(key, value)| line.set(key, value));
     serde_json::to_string(&line).map_err(|error| failed(&error))
 }
 

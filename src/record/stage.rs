@@ -56,8 +56,11 @@ pub enum Note {
 }
 
 impl Note {
-    /// Done, but for what was lost.
-    pub fn of(lost: &[String]) -> Self {
+    /// The same, and what else was lost.
+    pub fn and(self, mut lost: Vec<String>) -> Self {
+        if let Self::Lossy(what) = self {
+            lost.insert(0, what);
+        }
         if lost.is_empty() { Self::Done } else { Self::Lossy(lost.join("; ")) }
     }
 }

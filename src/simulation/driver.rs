@@ -61,7 +61,7 @@ impl Driver {
             let written = recorder.finish(run.trial.duration_s.0, png, &line()?);
             lost.extend(written.err().map(|error| error.to_string()));
         }
-        Ok(if lost.is_empty() { note_of(&run.trial) } else { Note::of(&lost) })
+        Ok(note_of(&run.trial).and(lost))
     }
 
     /// Runs a plan, unless the home does not have what it looks for.
