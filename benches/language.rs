@@ -1,7 +1,7 @@
 //! How fast descriptions are read and grounded, on one core.
 
 use spatial_fetch::grounding::{Grounder, Method};
-use spatial_fetch::language::chunk_text;
+use spatial_fetch::language::{Lexicon, Vocabulary, chunk_text};
 
 const SPOKEN: &str = "ok um drive straight ahead and take a right into the first room there then walk about halfway in \
     and um turn to your left you 'll see a small round table next to the bed the remote should be sitting on that table";
@@ -22,4 +22,19 @@ fn ground(bencher: divan::Bencher, brief: bool) {
     bencher
         .counter(divan::counter::ItemsCount::new(1_usize))
         .bench(|| grounder.ground(divan::black_box(SPOKEN), &tokens, &chunks));
+}
+
+#[divan::bench(args = ["peanuts", "closed", "xyzzy"])]
+fn is_english(word: &str) -> bool {
+    Vocabulary::embedded().is_english(divan::black_box(word))
+}
+
+#[divan::bench(args = ["skillet", "knives", "chipped_soup_bowl", "xyzzy"])]
+fn class_of(bencher: divan::Bencher, noun: &str) {
+    bencher.bench(|| Vocabulary::embedded().class_of(divan::black_box(noun)));
+}
+
+#[divan::bench(args = ["closed", "tabel", "xyzzy"])]
+fn nearest_noun(bencher: divan::Bencher, word: &str) {
+    bencher.bench(|| Lexicon::embedded().nearest_noun(divan::black_box(word)));
 }

@@ -53,7 +53,7 @@ pub const PICTURE_FILE_BYTES: Limit = Limit {
 /// Bytes of a mesh file.
 pub const MESH_FILE_BYTES: Limit = Limit {
     name: "a mesh file",
-    value: 1 << 27,
+    value: 1 << 26,
     unit: "bytes",
     reason: "more than the most triangles fill",
     lifted_by: None,
@@ -86,6 +86,15 @@ pub const RASTER_CELLS: Limit = Limit {
     lifted_by: None,
 };
 
+/// Corners of a shape.
+pub const SHAPE_CORNERS: Limit = Limit {
+    name: "a shape",
+    value: 200_000,
+    unit: "corners",
+    reason: "a detailed coastline fits; each direction of a histogram sorts all of them",
+    lifted_by: None,
+};
+
 /// Cells of a `map_server` image.
 pub const MAP_CELLS: Limit = Limit {
     name: "the image of a map",
@@ -101,6 +110,33 @@ pub const HOME_EXTENT_M: Limit = Limit {
     value: 200,
     unit: "metres",
     reason: "a hospital ward fits; a home drawn in millimetres or centimetres does not",
+    lifted_by: None,
+};
+
+/// How far from the world's origin a home may lie.
+pub const HOME_COORDINATE_M: Limit = Limit {
+    name: "a coordinate of a home, from the world's origin",
+    value: 100_000,
+    unit: "metres",
+    reason: "farther off, what is computed from the origin loses its millimetres",
+    lifted_by: None,
+};
+
+/// Height of a home's walls.
+pub const WALL_HEIGHT_M: Limit = Limit {
+    name: "the height of walls",
+    value: 50,
+    unit: "metres",
+    reason: "a hall fits; a height in millimetres does not",
+    lifted_by: None,
+};
+
+/// Length, width and height of a piece of furniture.
+pub const ITEM_SIZE_M: Limit = Limit {
+    name: "the length, width or height of a piece of furniture",
+    value: 20,
+    unit: "metres",
+    reason: "a long counter fits; a size in millimetres does not",
     lifted_by: None,
 };
 
@@ -152,12 +188,12 @@ pub const MESH_TRIANGLES: Limit = Limit {
     lifted_by: None,
 };
 
-/// Corners of one face of a mesh.
-pub const FACE_CORNERS: Limit = Limit {
-    name: "a face of a mesh",
-    value: 1_000,
-    unit: "corners",
-    reason: "cutting a face into triangles takes the square of its corners",
+/// Area of a mesh's triangles together against that of its box.
+pub const MESH_LAYERS: Limit = Limit {
+    name: "a mesh, for each surface of its box",
+    value: 50,
+    unit: "times the area of the box in triangles",
+    reason: "each layer is drawn in every picture; a shelf with all its boards has 10",
     lifted_by: None,
 };
 
@@ -191,9 +227,9 @@ pub const TREE_DEPTH: Limit = Limit {
 /// Bytes of one record of an MCAP log.
 pub const MCAP_RECORD_BYTES: Limit = Limit {
     name: "a record of an MCAP log",
-    value: 1 << 28,
+    value: 1 << 30,
     unit: "bytes",
-    reason: "a length beyond it is damage",
+    reason: "a longer one is left out and said: it would have to stand in memory whole",
     lifted_by: None,
 };
 
@@ -242,8 +278,12 @@ pub const ALL: &[Limit] = &[
     IMPORT_FILE_BYTES,
     PICTURE_PIXELS,
     RASTER_CELLS,
+    SHAPE_CORNERS,
     MAP_CELLS,
     HOME_EXTENT_M,
+    HOME_COORDINATE_M,
+    WALL_HEIGHT_M,
+    ITEM_SIZE_M,
     HOME_ROOMS,
     HOME_DOORS,
     HOME_CORNERS,
@@ -251,7 +291,7 @@ pub const ALL: &[Limit] = &[
     SCENE_ITEMS,
     SCENE_OBJECTS,
     MESH_TRIANGLES,
-    FACE_CORNERS,
+    MESH_LAYERS,
     SHEET_CELLS,
     SHEET_PART_BYTES,
     TREE_DEPTH,

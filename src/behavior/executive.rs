@@ -11,7 +11,7 @@ use crate::geometry::{Polygon, Pose, Vec2};
 use crate::language::Lexicon;
 use crate::map::{Room, RoomMap};
 use crate::perception::Eyes;
-use crate::record::{Action, Amount, Outcome, Plan};
+use crate::record::{Action, Amount, Delivery, Outcome, Plan};
 use crate::robot::MobileBase;
 
 /// Half of the turn in which the robot looks for its target.
@@ -60,6 +60,8 @@ pub struct Report {
     pub approached: Vec<Vec2>,
     /// Where the object was recognised, metres.
     pub found_at: Option<Vec2>,
+    /// What was brought where.
+    pub delivered: Vec<Delivery>,
     /// Where the robot believes to be at the end.
     pub pose: Pose,
     /// What was done and why.
@@ -74,6 +76,9 @@ pub struct Executive<'a> {
     pub(super) lexicon: &'static Lexicon,
     pub(super) approached: Vec<Vec2>,
     pub(super) found_at: Option<Vec2>,
+    pub(super) delivered: Vec<Delivery>,
+    /// Where the robot started: where the speaker is.
+    pub(super) start: Pose,
 }
 
 /// The parts of a plan.
@@ -82,6 +87,8 @@ pub(super) struct Task<'p> {
     steps: Vec<&'p Action>,
     pub(super) wanted: Wanted,
     pub(super) object: Option<&'p str>,
+    /// Further objects of the errand.
+    further: Vec<&'p str>,
 }
 
 impl<'a> Executive<'a> {
@@ -94,7 +101,17 @@ impl<'a> Executive<'a> {
         options: Options,
     ) -> Self {
         let pilot = Pilot::new(map, base, eyes, watcher, options.time_limit_s, options.no_localization);
-        Self { map, pilot, options, lexicon: Lexicon::embedded(), approached: Vec::new(), found_at: None }
+        let start = pilot.pose();
+        Self {
+            map,
+            pilot,
+            options,
+            lexicon: Lexicon::embedded(),
+            approached: Vec::new(),
+            found_at: None,
+            delivered: Vec::new(),
+            start,
+        }
     }
 
     /// Runs the plan to its end.
@@ -113,7 +130,15 @@ impl<'a> Executive<'a> {
         };
         self.pilot.end(&why);
         let pose = self.pilot.pose();
-        Report { outcome, why, approached: self.approached, found_at: self.found_at, pose, journal: self.pilot.journal }
+        Report {
+            outcome,
+            why,
+            approached: self.approached,
+            found_at: self.found_at,
+            delivered: self.delivered,
+            pose,
+            journal: self.pilot.journal,
+        }
     }
 
     fn fetch(&mut self, plan: &Plan) -> Result<(Outcome, String), Halt> {
@@ -121,9 +146,24 @@ impl<'a> Executive<'a> {
             let problems = plan.problems.join("; ");
             return Ok((Outcome::NotFound, format!("nothing to do: {problems}")));
         }
-        let task = self.task_of(plan);
+        let mut told: Vec<String> = Vec::new();
+        let mut outcome = Outcome::Arrived;
+        for errand in errands(&plan.actions) {
+            let (ended, why) = self.errand(errand)?;
+            told.push(why);
+            outcome = ended;
+            if !matches!(ended, Outcome::Found | Outcome::Arrived) {
+                break;
+            }
+        }
+        Ok((outcome, told.join("; ")))
+    }
+
+    /// One errand: to the room, inside it, find everything, bring it.
+    fn errand(&mut self, actions: &[Action]) -> Result<(Outcome, String), Halt> {
+        let mut task = self.task_of(actions);
         let mut why = String::new();
-        for (i, room) in task.rooms.iter().enumerate() {
+        for (i, room) in task.rooms.clone().iter().enumerate() {
             if let Err(halt) = self.enter(room) {
                 match halt {
                     Halt::Blocked(reason) if i + 1 < task.rooms.len() => self.pilot.end(&format!("blocked: {reason}")),
@@ -136,30 +176,57 @@ impl<'a> Executive<'a> {
                 self.step(action, &frame)?;
             }
             if !self.pilot.can_see() {
-                return Ok((Outcome::Arrived, without_camera(plan)));
+                let why = without_camera(actions);
+                self.deliver_all(actions)?;
+                return Ok((Outcome::Arrived, why));
             }
             match self.search(&task, &frame)? {
-                Ok(found) => return Ok((Outcome::Found, found)),
-                Err(reason) => why = reason,
+                Ok(found) => why = found,
+                Err(reason) => {
+                    why = reason;
+                    continue;
+                }
             }
+            for object in std::mem::take(&mut task.further) {
+                task.object = Some(object);
+                self.pilot.end(&why);
+                self.pilot.beliefs.search_anew();
+                match self.search(&task, &frame)? {
+                    Ok(found) => why = format!("{why}; {found}"),
+                    Err(reason) => return Ok((Outcome::NotFound, format!("{why}; {reason}"))),
+                }
+            }
+            self.pilot.end(&why);
+            if let Some(brought) = self.deliver_all(actions)? {
+                why = format!("{why}; {brought}");
+            }
+            return Ok((Outcome::Found, why));
         }
         Ok((Outcome::NotFound, why))
     }
 
-    fn task_of<'p>(&self, plan: &'p Plan) -> Task<'p> {
-        let mut task = Task { rooms: Vec::new(), steps: Vec::new(), wanted: Wanted::default(), object: None };
-        for action in &plan.actions {
+    fn task_of<'p>(&self, actions: &'p [Action]) -> Task<'p> {
+        let wanted = Wanted::default();
+        let mut task = Task { rooms: Vec::new(), steps: Vec::new(), wanted, object: None, further: Vec::new() };
+        let mut finds = 0;
+        for action in actions {
             match action {
                 Action::Enter { room, candidates } => {
                     task.rooms = room.iter().chain(candidates).map(String::as_str).collect();
                 }
-                Action::Find { object } => task.object = object.as_deref(),
-                Action::Search { .. } => {}
+                Action::Find { object } => {
+                    match object.as_deref() {
+                        object if finds == 0 => task.object = object,
+                        object => task.further.extend(object),
+                    }
+                    finds += 1;
+                }
+                Action::Search { .. } | Action::Deliver { .. } => {}
                 step if !self.options.blind => task.steps.push(step),
                 _ => {}
             }
         }
-        task.wanted = match Wanted::of_plan(plan) {
+        task.wanted = match Wanted::of(actions) {
             Some(wanted) if !self.options.blind => Wanted { one_frame: self.options.one_frame, ..wanted },
             _ => Wanted { nearest_first: self.options.blind, ..Wanted::default() },
         };
@@ -169,7 +236,7 @@ impl<'a> Executive<'a> {
         task
     }
 
-    fn enter(&mut self, room: &str) -> Result<(), Halt> {
+    pub(super) fn enter(&mut self, room: &str) -> Result<(), Halt> {
         self.pilot.begin("enter");
         let name = room.replace('_', " ");
         let Some(outline) = self.map.room(room).map(Room::polygon) else {
@@ -244,9 +311,17 @@ impl<'a> Executive<'a> {
     }
 }
 
+/// The actions errand by errand: each begins with a room to enter.
+fn errands(actions: &[Action]) -> Vec<&[Action]> {
+    let starts = (0..actions.len()).filter(|&at| at == 0 || matches!(actions[at], Action::Enter { .. }));
+    let mut bounds: Vec<usize> = starts.collect();
+    bounds.push(actions.len());
+    bounds.windows(2).map(|pair| &actions[pair[0]..pair[1]]).collect()
+}
+
 /// What a robot without a camera has left undone.
-fn without_camera(plan: &Plan) -> String {
-    let wanted = plan.actions.iter().find_map(|action| match action {
+fn without_camera(actions: &[Action]) -> String {
+    let wanted = actions.iter().find_map(|action| match action {
         Action::Search { target: Some(target), .. } => Some(target.replace('_', " ")),
         Action::Find { object: Some(object) } => Some(object.replace('_', " ")),
         _ => None,

@@ -11,6 +11,7 @@
 mod approach;
 mod beliefs;
 mod clearances;
+mod delivery;
 mod driving;
 mod executive;
 mod foresight;

@@ -78,7 +78,7 @@ pub fn step_for(action: &Action, pose: Pose, room: &RoomFrame, landmark: Option<
             Reference::Door => Some(room.part(pose, Direction::Front)),
             Reference::Move | Reference::Robot | Reference::Thing(_) => landmark.map(|at| pass(pose, at)),
         },
-        Action::Enter { .. } | Action::Search { .. } | Action::Find { .. } => None,
+        Action::Enter { .. } | Action::Search { .. } | Action::Find { .. } | Action::Deliver { .. } => None,
     }
 }
 
@@ -201,7 +201,7 @@ impl RoomFrame {
             Direction::Right => {
                 self.at(here.x.max(near + BEFORE_FAR_WALL_M), three_quarters(left, right), heading - FRAC_PI_2)
             }
-            Direction::Central | Direction::Side | Direction::Between => self.at((near + far) / 2.0, here.y, heading),
+            _ => self.at((near + far) / 2.0, here.y, heading),
         }
     }
 
@@ -214,7 +214,7 @@ impl RoomFrame {
             Direction::Right => self.at(here.x, right + BEFORE_WALL_M, heading - FRAC_PI_2),
             Direction::Front => self.at(near + BEFORE_WALL_M, here.y, heading + PI),
             Direction::Back => self.at(far - BEFORE_WALL_M, here.y, heading),
-            Direction::Central | Direction::Side | Direction::Between => walk(pose, self, f64::INFINITY),
+            _ => walk(pose, self, f64::INFINITY),
         }
     }
 }

@@ -23,6 +23,8 @@ const PLAIN_VIEW_RAD: f64 = 0.4;
 /// A line of sight passes walls by this, metres: a cell's middle lies half a cell off them at most.
 const SIGHT_M: f64 = 0.08;
 
+/// A dead time that changes by more than this is told, seconds.
+const TELLING_S: f64 = 0.03;
 /// Why the executive had to end early.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Halt {
@@ -240,7 +242,12 @@ impl<'a> Pilot<'a> {
     /// Lets one control period pass at these velocities (m/s, rad/s).
     pub(super) fn tick(&mut self, linear: f64, angular: f64) -> Result<(), Halt> {
         self.base.drive(linear, angular, TICK_S)?;
+        let dead_time_s = self.foresight.dead_time_s();
         self.foresight.passed((linear, angular), self.base.time_s(), self.base.age_s(), self.base.velocity());
+        let found_s = self.foresight.dead_time_s();
+        if (found_s - dead_time_s).abs() > TELLING_S {
+            self.watcher.said(self.base.time_s(), &format!("the base answers after {:.0} ms", found_s * 1000.0));
+        }
         self.localizer.update(self.base, &self.outlines);
         let (time_s, pose) = (self.base.time_s(), self.pose());
         self.journal.passed(time_s, pose);

@@ -44,7 +44,8 @@ pub fn angle_of(direction: Direction, frame: Frame, place: Place, yaw: Option<f6
         Direction::Back => Some(front + PI),
         Direction::Left => Some(front + left * FRAC_PI_2),
         Direction::Right => Some(front - left * FRAC_PI_2),
-        Direction::Central | Direction::Side | Direction::Between => None,
+        // Above and under are beside it on the floor plan; far is no direction.
+        _ => None,
     }
 }
 
@@ -59,7 +60,11 @@ pub fn to_furniture(
 ) -> Option<f64> {
     let gap = candidate.footprint.distance(&reference.footprint);
     match direction {
-        Direction::Side | Direction::Between => Some(halving(gap, BESIDE_HALVES_M)),
+        // What hangs over a thing or lies under it stands beside it as a robot sees it from above.
+        Direction::Side | Direction::Between | Direction::Above | Direction::Under => {
+            Some(halving(gap, BESIDE_HALVES_M))
+        }
+        Direction::Far => Some(1.0 - halving(gap, RELATED_HALVES_M)),
         Direction::Central => Some(halving((candidate.centre() - reference.centre()).norm(), BESIDE_HALVES_M)),
         _ => {
             let angle = angle_of(direction, frame, place, reference.detection.yaw)?;
@@ -81,7 +86,7 @@ pub fn to_robot(point: Vec2, direction: Direction, place: Place) -> f64 {
         Direction::Back => PI,
         Direction::Left => FRAC_PI_2,
         Direction::Right => -FRAC_PI_2,
-        Direction::Central | Direction::Side | Direction::Between => {
+        _ => {
             return halving(place.arrived.distance_to(point), RELATED_HALVES_M);
         }
     };
@@ -104,7 +109,7 @@ pub fn to_wall(candidate: &Furniture, direction: Direction, place: Place) -> f64
         Direction::Right => halving(at.y - right, AT_WALL_HALVES_M),
         Direction::Back => halving(far - at.x, AT_WALL_HALVES_M),
         Direction::Front => halving(at.x - near, AT_WALL_HALVES_M),
-        Direction::Central | Direction::Between => to_room(candidate, direction, place),
+        _ => to_room(candidate, direction, place),
     }
 }
 
@@ -119,9 +124,7 @@ pub fn to_room(candidate: &Furniture, direction: Direction, place: Place) -> f64
         Direction::Left => share(right, left, at.y),
         Direction::Right => share(left, right, at.y),
         Direction::Side => halving(wall_gap(candidate, place), 2.0 * BESIDE_HALVES_M),
-        Direction::Central | Direction::Between => {
-            1.0 - (2.0 * share(near, far, at.x) - 1.0).abs().max((2.0 * share(right, left, at.y) - 1.0).abs())
-        }
+        _ => 1.0 - (2.0 * share(near, far, at.x) - 1.0).abs().max((2.0 * share(right, left, at.y) - 1.0).abs()),
     }
 }
 

@@ -84,7 +84,8 @@ struct Factor {
 
 /// The furniture not yet searched that could be meant, best first.
 pub fn rank(beliefs: &Beliefs, wanted: &Wanted, place: Place, lexicon: &Lexicon) -> Vec<Ranked> {
-    let candidates = candidates(beliefs, wanted.target.as_deref(), lexicon);
+    let mut candidates = candidates(beliefs, wanted.target.as_deref(), lexicon);
+    candidates.retain(|&index| !is_ruled_out(&beliefs.furniture[index], &wanted.not, lexicon));
     let mut ranked: Vec<Ranked> = candidates
         .iter()
         .filter(|&&index| !beliefs.furniture[index].searched)
@@ -107,6 +108,12 @@ fn candidates(beliefs: &Beliefs, target: Option<&str>, lexicon: &Lexicon) -> Vec
     (0..beliefs.furniture.len())
         .filter(|&i| belief_in_target(&beliefs.furniture[i], target, lexicon) >= DOUBTFUL)
         .collect()
+}
+
+/// Whether a piece is of a category that was ruled out, by its own name: "not the desk" leaves the nightstand.
+fn is_ruled_out(furniture: &Furniture, not: &[String], lexicon: &Lexicon) -> bool {
+    let same = |category: &str, noun: &String| category == noun || lexicon.canonical(noun) == Some(category);
+    not.iter().any(|noun| furniture.belief(|category| same(category, noun)) > 0.5)
 }
 
 /// How sure the robot is that a piece is what the target's noun names.

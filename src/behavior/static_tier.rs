@@ -78,7 +78,7 @@ impl Executive<'_> {
     fn look_elsewhere(&mut self, task: &Task, room: &RoomFrame) -> Result<Option<String>, Halt> {
         for lookout in lookouts(self.pilot.grid(), room, self.pilot.pose().position(), self.pilot.ways().to_turn) {
             self.look_round_at(lookout)?;
-            let found = self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())?;
+            let found = self.try_candidates(task, room, self.pilot.pose(), &task.wanted.anything())?;
             if found.is_some() {
                 return Ok(found);
             }
@@ -93,7 +93,7 @@ impl Executive<'_> {
             return Ok(found);
         }
         self.pilot.because("nothing the words fit holds it; trying all other table-like furniture, nearest first");
-        self.try_candidates(task, room, self.pilot.pose(), &Wanted::default())
+        self.try_candidates(task, room, self.pilot.pose(), &task.wanted.anything())
     }
 
     /// Goes where something like the object was seen, though never so that it could be told for sure.

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Pose, Vec2};
 use crate::map::RoomMap;
-use crate::record::{Plan, Record, Rounded, StageError, Trial};
+use crate::record::{Plan, Record, Rounded, StageError, Trial, doubts_of};
 
 /// A trial with what its files want to know beside the record.
 #[derive(Clone, Debug)]
@@ -38,6 +38,11 @@ pub fn text_of(record: &Record) -> Result<String, StageError> {
     let outcome = format!("{:?}", trial.outcome).to_lowercase();
     let (metres, seconds) = (trial.distance_m.0, trial.duration_s.0);
     lines.push(format!("{outcome}: {} ({metres:.1} m, {seconds:.0} s, {} collisions)", trial.why, trial.collisions));
+    lines.extend(trial.delivered.iter().map(|delivery| {
+        let what = delivery.objects.join(" and ").replace('_', " ");
+        format!("delivered: {what} {}", delivery.to.phrase())
+    }));
+    lines.extend(doubts_of(record)?.into_iter().map(|doubt| format!("  !  {doubt}")));
     Ok(lines.join("\n"))
 }
 

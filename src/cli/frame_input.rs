@@ -6,11 +6,11 @@ use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use super::filter::{Outcome, finish, run_source};
-use super::log_input::{Bytes, open_log};
+use super::log_input::Bytes;
 use super::{Common, Diagnostic, Exit, Failure, FromLog, Inputs, Line, Source};
 use crate::perception::Told;
 use crate::record::{Note, Record, Stage, StageError};
-use crate::recording::{FrameOptions, FrameReader, TimedFrame};
+use crate::recording::{FrameOptions, FrameReader, LogError, Parts, TimedFrame, recordings};
 
 /// Pictures are large: only as many at a time as keep the cores busy.
 const BATCH_FRAMES: usize = 8;
@@ -51,7 +51,7 @@ impl FrameInput {
                     return Ok(Self::Lines(Inputs::of("<stdin>", stdin)));
                 }
                 let mut logs = logs(Vec::new());
-                logs.begin(stdin, "<stdin>".to_string(), true)?;
+                logs.begin_stream(stdin)?;
                 Ok(Self::Logs(Box::new(logs)))
             }
         }
@@ -72,7 +72,7 @@ fn begins_as_log(mut source: impl Read) -> (bool, Vec<u8>) {
 
 /// The frames of one log after another.
 pub struct FrameLogs {
-    waiting: VecDeque<PathBuf>,
+    waiting: VecDeque<Vec<PathBuf>>,
     options: FromLog,
     told: Told,
     current: Option<Current>,
@@ -81,8 +81,7 @@ pub struct FrameLogs {
 }
 
 struct Current {
-    frames: FrameReader<Bytes>,
-    name: String,
+    frames: FrameReader<Parts>,
     is_pipe: bool,
 }
 
@@ -113,37 +112,59 @@ impl FrameItem {
 
 impl FrameLogs {
     fn new(paths: Vec<PathBuf>, options: FromLog, told: Told) -> Self {
-        Self { waiting: paths.into(), options, told, current: None, count: 0, lost: Vec::new() }
+        Self { waiting: recordings(paths).into(), options, told, current: None, count: 0, lost: Vec::new() }
     }
 
-    fn begin(&mut self, bytes: Bytes, name: String, is_pipe: bool) -> Result<(), Failure> {
-        let (topics, window, recover) = (self.options.topic.clone(), self.options.window(), self.options.recover);
-        let frames = FrameReader::new(bytes, &name, FrameOptions { topics, window, recover, told: self.told });
-        let frames = frames.map_err(|error| Failure::Failed(error.to_string()))?;
-        self.current = Some(Current { frames, name, is_pipe });
+    fn begin_stream(&mut self, bytes: Bytes) -> Result<(), Failure> {
+        self.begin(Parts::stream(bytes, "<stdin>", self.options.recover).map_err(failed)?, true);
         Ok(())
+    }
+
+    fn begin(&mut self, parts: Parts, is_pipe: bool) {
+        let (topics, window, recover) = (self.options.topic.clone(), self.options.window(), self.options.recover);
+        let frames = FrameReader::of(parts, FrameOptions { topics, window, recover, told: self.told });
+        self.current = Some(Current { frames, is_pipe });
+    }
+
+    /// Begins the next recording; false when there is none.
+    fn begin_next(&mut self) -> Result<bool, Failure> {
+        let Some(paths) = self.waiting.pop_front() else { return Ok(false) };
+        match paths.as_slice() {
+            [path] if path == Path::new("-") => self.begin_stream(Box::new(io::stdin()))?,
+            _ => {
+                let is_pipe = paths.iter().any(|path| !path.metadata().is_ok_and(|found| found.is_file()));
+                self.begin(Parts::files(paths, self.options.recover).map_err(failed)?, is_pipe);
+            }
+        }
+        Ok(true)
     }
 
     fn next_frame(&mut self) -> Result<Option<FrameItem>, Failure> {
         loop {
             let Some(current) = &mut self.current else {
-                let Some(path) = self.waiting.pop_front() else { return Ok(None) };
-                let (bytes, name, is_pipe) = open_log(&path)?;
-                self.begin(bytes, name, is_pipe)?;
-                continue;
+                if self.begin_next()? {
+                    continue;
+                }
+                return Ok(None);
             };
             match current.frames.next() {
                 None => self.current = None,
                 Some(Err(loss)) => {
-                    self.lost.push(Diagnostic { place: current.name.clone(), id: None, message: loss.to_string() });
+                    let place = current.frames.messages().part().to_string();
+                    self.lost.push(Diagnostic { place, id: None, message: loss.to_string() });
                 }
                 Some(Ok(timed)) => {
                     self.count += 1;
-                    return Ok(Some(FrameItem { file: current.name.clone(), ordinal: self.count, timed }));
+                    let file = current.frames.messages().name().to_string();
+                    return Ok(Some(FrameItem { file, ordinal: self.count, timed }));
                 }
             }
         }
     }
+}
+
+fn failed(error: LogError) -> Failure {
+    Failure::Failed(error.to_string())
 }
 
 impl Source<FrameItem> for FrameLogs {

@@ -45,4 +45,4 @@ pub use scores::{
 };
 pub use source::Source;
 pub use threads::{counted_on_threads, on_threads};
-pub use trial_options::{OptionsError, TIME_LIMIT_S, TrialOptions};
+pub use trial_options::{DELAY_S, OptionsError, TIME_LIMIT_S, TrialOptions};

@@ -18,6 +18,9 @@ use crate::simulation::{NoiseLevel, Perception};
 /// Seconds of robot time that a trial may take.
 pub const TIME_LIMIT_S: RangeInclusive<f64> = 0.0..=1e6;
 
+/// Seconds of dead time, and of its jitter, that the simulated base may have.
+pub const DELAY_S: RangeInclusive<f64> = 0.0..=1.5;
+
 /// They bear the names of the command line, with `_` for `-`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -30,6 +33,11 @@ pub struct TrialOptions {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map: Option<String>,
     pub noise: NoiseLevel,
+    /// Seconds, where they are not those of the noise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dead_time: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub jitter: Option<f64>,
     pub perception: Perception,
     pub depth_noise: f64,
     pub depth_loss: f64,
@@ -112,7 +120,9 @@ impl TrialOptions {
             ("light", self.light, LIGHT),
             ("time_limit", self.time_limit, TIME_LIMIT_S),
         ];
-        for (name, value, range) in numbers {
+        let delays = [("dead_time", self.dead_time), ("jitter", self.jitter)];
+        let delays = delays.into_iter().filter_map(|(name, value)| Some((name, value?, DELAY_S)));
+        for (name, value, range) in numbers.into_iter().chain(delays) {
             in_range(value, &range).map_err(|why| OptionsError::Value(name, why))?;
         }
         for (name, home) in [("world", &self.world), ("map", &self.map)] {
@@ -129,10 +139,12 @@ impl TrialOptions {
 }
 
 /// Every name that may stand in a log.
-const NAMES: [&str; 15] = [
+const NAMES: [&str; 17] = [
     "world",
     "map",
     "noise",
+    "dead_time",
+    "jitter",
     "perception",
     "depth_noise",
     "depth_loss",
@@ -217,6 +229,8 @@ mod tests {
             world: None,
             map: None,
             noise: NoiseLevel::Default,
+            dead_time: None,
+            jitter: None,
             perception: Perception::Truth,
             depth_noise: 1.0,
             depth_loss: 0.02,

@@ -168,6 +168,7 @@ fn run(
         spl: None,
         collisions: 0,
         min_clearance_m: None,
+        delivered: report.delivered,
         actions: report.journal.actions,
         path,
     };

@@ -22,6 +22,7 @@
 
 mod axes;
 mod between;
+mod boxes;
 mod degree;
 mod describe;
 mod gap;
@@ -32,12 +33,15 @@ mod main_direction;
 mod mask;
 mod name;
 pub mod polygon;
+mod quadrature;
 pub mod raster;
 mod relation;
 mod rose;
 mod shape;
+mod shape_error;
 mod stage;
 mod surround;
+mod validity;
 mod wording;
 
 pub use axes::{Axes, Words};
@@ -49,7 +53,8 @@ pub use kernel::{Force, Infinite};
 pub use main_direction::main_direction;
 pub use name::{AxesName, ForceName};
 pub use relation::RelativePosition;
-pub use shape::{Shape, ShapeError};
+pub use shape::Shape;
+pub use shape_error::ShapeError;
 pub use stage::{Describer, Pictures};
 pub use surround::surround;
 pub use wording::{Assessment, Closeness};

@@ -2,7 +2,7 @@
 
 use super::meaning::pair;
 use crate::language::tokens::tokenize;
-use crate::language::{Class, Lexicon, Role, Unit, UnitKind, units};
+use crate::language::{Class, Lexicon, Role, Unit, units};
 use crate::record::{Direction, Grounding, Node, ObjectSlot, RoomSlot};
 
 /// Changes `grounding` by what `reply` says: "the left one", "on the desk", "the mug", "the bedroom", "the second".
@@ -26,28 +26,25 @@ pub fn answer(grounding: &mut Grounding, reply: &str, lexicon: &Lexicon) -> bool
 }
 
 fn take(grounding: &mut Grounding, unit: &Unit) -> bool {
-    match (&unit.kind, unit.lower.as_ref()) {
-        (UnitKind::Noun("room", Class::Room), _) => false,
-        (UnitKind::Noun(name, Class::Room), _) => {
-            room(grounding).name = Some((*name).to_string());
-            true
-        }
-        (UnitKind::Noun(name, Class::Object), _) => {
-            grounding.object =
-                Some(ObjectSlot { name: (*name).to_string(), score: 0.97.into(), ..ObjectSlot::default() });
-            true
-        }
-        (UnitKind::Noun(name, class), _) if class.is_furniture() => {
-            settle_target(grounding, name);
-            true
-        }
-        (UnitKind::Word(Role::Side), word) => {
-            take_side(grounding, if word == "left" { Direction::Left } else { Direction::Right });
-            true
-        }
-        (UnitKind::Word(Role::Ordinal), word) => take_ordinal(grounding, word),
-        _ => false,
+    if unit.has(Role::Side) {
+        take_side(grounding, if unit.lower == "left" { Direction::Left } else { Direction::Right });
+        return true;
     }
+    if unit.has(Role::Ordinal) {
+        return take_ordinal(grounding, &unit.lower);
+    }
+    let Some(noun) = unit.noun.filter(|noun| !noun.inferred) else { return false };
+    match noun.class {
+        Class::Room if noun.name == "room" => return false,
+        Class::Room => room(grounding).name = Some(noun.name.to_string()),
+        Class::Object => {
+            grounding.object =
+                Some(ObjectSlot { name: noun.name.to_string(), score: 0.97.into(), ..ObjectSlot::default() });
+        }
+        class if class.is_furniture() => settle_target(grounding, noun.name),
+        _ => return false,
+    }
+    true
 }
 
 fn room(grounding: &mut Grounding) -> &mut RoomSlot {

@@ -2,15 +2,17 @@
 
 use std::sync::Arc;
 
-use super::composed::{meaning_of, settle_target};
+use super::composed::meaning_of;
+use super::doubts;
 use super::meaning::pair;
 use super::paper::{LabelledTree, Model};
-use super::readings;
+use super::readings::{self, Instead};
+use super::story::tell;
 use super::words::{ChunkWords, chunk_words_of};
 use super::{Meaning, assemble};
 use crate::language::tokens::{Word, tokenize};
-use crate::language::{Class, Lexicon, Role, Unit, UnitKind, units};
-use crate::record::{Chunk, Grounding, Reference, Tag, TextSpan, Token, Why};
+use crate::language::{Class, Lexicon, read, tree_of};
+use crate::record::{Chunk, Grounding, ObjectSlot, Reference, Tag, Token, Why};
 
 /// How chunks get their meaning.
 #[derive(Clone, Debug, Default)]
@@ -43,30 +45,51 @@ impl Grounder {
 
     /// The meaning of a chunk tree over `text`.
     ///
-    /// `tokens` give the paper's method its parts of speech; they may be empty.
+    /// A tree that the reader itself would make is read as a whole, with all that its phrases mean; a tree from
+    /// elsewhere is taken as it is, chunk by chunk. `tokens` give the paper's method its parts of speech; they may be
+    /// empty.
     pub fn ground(&self, text: &str, tokens: &[Token], chunks: &[Chunk]) -> Grounding {
         let words = tokenize(text);
-        let tree = chunks;
-        let chunks = chunk_words_of(&words, tree);
+        if matches!(self.method, Method::Composed) {
+            let (reading, errands) = read(&words, &self.lexicon);
+            if same_tree(&tree_of(&reading, &errands, &words), chunks) {
+                let (mut grounding, object) = tell(&reading, &errands);
+                doubts::add(&mut grounding, &reading, text, &words, self.brief);
+                let instead = Instead { object, taken_back: doubts::taken_back(&reading) };
+                return self.finish(grounding, &instead);
+            }
+        }
+        self.ground_tree(text, &words, tokens, chunks)
+    }
+
+    fn ground_tree(&self, text: &str, words: &[Word], tokens: &[Token], tree: &[Chunk]) -> Grounding {
+        let chunks = chunk_words_of(words, tree);
         let meanings = match &self.method {
-            Method::Composed => self.composed(&words, &chunks),
+            Method::Composed => self.composed(words, &chunks),
             Method::Paper(model) => model.meanings(&LabelledTree::unlabelled(text, tokens, tree)),
         };
         let mut grounding = assemble(&chunks, &meanings);
-        if matches!(self.method, Method::Composed) {
-            settle_target(&mut grounding, &self.lexicon);
-        }
         readings::score(&mut grounding);
-        let units = units(&words, &self.lexicon);
-        grounding.warnings = warnings(text, &units, &chunks);
-        readings::rank(&mut grounding, &chunks, &meanings);
-        if self.brief {
-            grounding.readings.clear();
-        } else {
-            grounding.unused = unused(text, &words, &units, &chunks);
+        let taken_back = chunks.iter().zip(&meanings).filter(|(chunk, _)| chunk.tag == Tag::Conf);
+        let instead = Instead {
+            object: other_object(&grounding, &chunks, &meanings),
+            taken_back: taken_back.clone().find_map(|(_, meaning)| meaning.side),
+        };
+        let spoken = |chunk: &ChunkWords| format!("\"{}\" was taken back", &text[chunk.start..chunk.end]);
+        grounding.warnings.extend(taken_back.map(|(chunk, _)| spoken(chunk)));
+        if !self.brief {
+            grounding.unused = doubts::outside(text, words, &chunks, &self.lexicon);
             grounding.why = chunks.iter().zip(&meanings).map(|(chunk, meaning)| why(chunk, meaning)).collect();
         }
-        if grounding.room.is_none() && grounding.object.is_none() && grounding.nodes.is_empty() {
+        self.finish(grounding, &instead)
+    }
+
+    fn finish(&self, mut grounding: Grounding, instead: &Instead) -> Grounding {
+        readings::rank(&mut grounding, instead);
+        if self.brief {
+            grounding.readings.clear();
+        }
+        if doubts::is_empty(&grounding) {
             grounding.score = 0.0.into();
             grounding.margin = 0.0.into();
             grounding.problems.push("no room, furniture, move or object was recognised in this text".to_string());
@@ -115,9 +138,9 @@ fn resolve_it(chunks: &[ChunkWords], meanings: &mut [Meaning], lexicon: &Lexicon
             meaning.pairs = meaning.pairs.iter().map(|of_it| pair(noun, of_it.direction)).collect();
             meaning.because.push_str(&format!("; \"it\" is the {}", noun.replace('_', " ")));
         }
-        let furniture = |noun: &String| lexicon.class_of(noun).is_some_and(Class::is_furniture);
-        let references = meaning.pairs.iter().filter_map(|pair| pair.reference.thing()).map(str::to_string);
-        last = meaning.target.iter().cloned().chain(references).find(furniture).or(last);
+        let furniture = |noun: &&str| lexicon.class_of(noun).is_some_and(Class::is_furniture);
+        let references = meaning.pairs.iter().filter_map(|pair| pair.reference.thing());
+        last = meaning.target.as_deref().into_iter().chain(references).find(furniture).map(str::to_string).or(last);
     }
 }
 
@@ -137,38 +160,23 @@ fn continues_move(index: usize, words: &[Word], chunks: &[ChunkWords]) -> bool {
     matches!(before.tag, Tag::Irmrp | Tag::Ormtp) && from < past && words[from..past].iter().all(joins) && !told
 }
 
-fn warnings(text: &str, units: &[Unit], chunks: &[ChunkWords]) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if let Some(at) = units.iter().position(|unit| unit.role() == Some(Role::Negation)) {
-        let noun = units[at..].iter().find(|unit| unit.class().is_some_and(Class::is_furniture));
-        let about = noun.map_or(String::new(), |noun| format!(" (\"{} … {}\")", units[at].lower, noun.lower));
-        warnings.push(format!("a negation was heard{about}; what it rules out is left out of the reading"));
-    }
-    let corrected = chunks.iter().filter(|chunk| chunk.tag == Tag::Conf);
-    warnings.extend(corrected.map(|chunk| format!("\"{}\" was taken back", &text[chunk.start..chunk.end])));
-    warnings
+/// Another object that some chunk names.
+fn other_object(grounding: &Grounding, chunks: &[ChunkWords], meanings: &[Meaning]) -> Option<ObjectSlot> {
+    let object = grounding.object.as_ref()?;
+    let named = chunks.iter().zip(meanings).filter(|(chunk, _)| chunk.tag == Tag::Obtp);
+    let (name, meaning) = named
+        .filter_map(|(_, meaning)| Some((meaning.object.as_ref()?, meaning)))
+        .find(|(name, meaning)| **name != object.name && !meaning.indefinite)?;
+    Some(ObjectSlot { name: name.clone(), score: meaning.score.into(), ..ObjectSlot::default() })
 }
 
-/// Content words in no chunk.
-fn unused(text: &str, words: &[Word], units: &[Unit], chunks: &[ChunkWords]) -> Vec<TextSpan> {
-    let mut covered = vec![false; words.len()];
-    for chunk in chunks.iter().filter(|chunk| chunk.parent.is_none()) {
-        let from = words.partition_point(|word| word.start < chunk.start);
-        let past = words.partition_point(|word| word.end <= chunk.end);
-        covered[from..past.max(from)].fill(true);
-    }
-    let content = |kind: &UnitKind| match kind {
-        UnitKind::Noun(..) | UnitKind::Unknown => true,
-        UnitKind::Word(role) => {
-            matches!(role, Role::Side | Role::Turn | Role::Motion | Role::Adjective | Role::Part)
-        }
-        UnitKind::Stop => false,
-    };
-    let span = |unit: &Unit| {
-        let (start, end) = (words[unit.first].start, words[unit.past - 1].end);
-        TextSpan { text: text[start..end].to_string(), start, end }
-    };
-    units.iter().filter(|unit| content(&unit.kind) && !covered[unit.first]).map(span).collect()
+/// Whether two trees have the same chunks; the rules behind them do not matter.
+fn same_tree(one: &[Chunk], other: &[Chunk]) -> bool {
+    one.len() == other.len()
+        && one
+            .iter()
+            .zip(other)
+            .all(|(a, b)| (a.tag, a.start, a.end) == (b.tag, b.start, b.end) && same_tree(&a.chunks, &b.chunks))
 }
 
 fn why(chunk: &ChunkWords, meaning: &Meaning) -> Why {

@@ -1,19 +1,24 @@
-//! Chunk tree → room, RDT nodes and object. Never sees a map.
+//! Phrases or a chunk tree → room, RDT nodes, objects, destination and further errands. Never sees a map.
 //!
-//! Two methods: [`Method::Composed`] reads what the words of each chunk mean;
-//! [`Method::Paper`] finds the nearest labelled example by the published
-//! equations. Both give each chunk a [`Meaning`], which [`assemble`] puts
-//! together.
+//! Two methods: [`Method::Composed`] takes what the phrases mean and lets the
+//! `story` put them together, knowing where in it it is; of a tree from
+//! elsewhere it reads each chunk by the same grammar. [`Method::Paper`] finds
+//! the nearest labelled example by the published equations. Meanings of
+//! chunks are put together by [`assemble`].
 
 mod answer;
 mod assemble;
 mod composed;
+mod confidence;
+mod doubts;
 mod grounder;
 mod meaning;
 pub mod paper;
+mod phrase_pairs;
 mod readings;
 mod settings;
 mod stage;
+mod story;
 mod table;
 mod words;
 

@@ -1,8 +1,15 @@
 //! How sure the best reading is, what else could be meant, and the one question that settles it.
 
-use super::Meaning;
-use super::words::ChunkWords;
-use crate::record::{Direction, Grounding, Node, Reading, RoomSlot, Tag};
+use crate::record::{Direction, Grounding, Node, ObjectSlot, Reading, RoomSlot};
+
+/// What else could be meant.
+#[derive(Clone, Debug, Default)]
+pub struct Instead {
+    /// Another object that was named.
+    pub object: Option<ObjectSlot>,
+    /// A side that was taken back.
+    pub taken_back: Option<Direction>,
+}
 
 /// A smaller lead than this is worth a question.
 const CLEAR_LEAD: f64 = 0.2;
@@ -28,11 +35,11 @@ pub fn score(grounding: &mut Grounding) {
 }
 
 /// Fills in `readings`, `margin` and `question`.
-pub fn rank(grounding: &mut Grounding, chunks: &[ChunkWords], meanings: &[Meaning]) {
+pub fn rank(grounding: &mut Grounding, instead: &Instead) {
     let mut readings: Vec<(Reading, String)> = Vec::new();
     readings.extend(other_target(grounding));
-    readings.extend(other_object(grounding, chunks, meanings));
-    readings.extend(uncorrected_room(grounding, chunks, meanings));
+    readings.extend(other_object(grounding, instead.object.as_ref()));
+    readings.extend(uncorrected_room(grounding, instead.taken_back));
     readings.extend(either_room(grounding));
     readings.sort_by(|a, b| b.0.score.0.total_cmp(&a.0.score.0));
     let next = readings.first().map_or(0.0, |(reading, _)| reading.score.0);
@@ -78,28 +85,20 @@ fn other_target(grounding: &Grounding) -> Option<(Reading, String)> {
     Some((reading, format!("Is it on the {one} or on the {other}?")))
 }
 
-fn other_object(grounding: &Grounding, chunks: &[ChunkWords], meanings: &[Meaning]) -> Option<(Reading, String)> {
+fn other_object(grounding: &Grounding, instead: Option<&ObjectSlot>) -> Option<(Reading, String)> {
     let object = grounding.object.as_ref()?;
-    let objects = chunks.iter().zip(meanings).filter(|(chunk, _)| chunk.tag == Tag::Obtp);
-    let (name, meaning) = objects
-        .filter_map(|(_, meaning)| Some((meaning.object.as_ref()?, meaning)))
-        .find(|(name, meaning)| **name != object.name && !meaning.indefinite)?;
-    let (one, other) = (spoken(&object.name), spoken(name));
-    let mut reading = variant(grounding, OTHER_OBJECT, &format!("the {other} is meant, not the {one}"));
-    if let Some(slot) = &mut reading.object {
-        slot.name.clone_from(name);
-        slot.score = meaning.score.into();
-    }
-    Some((reading, format!("Do you want the {one} or the {other}?")))
+    let other = instead.filter(|other| other.name != object.name)?;
+    let (one, another) = (spoken(&object.name), spoken(&other.name));
+    let mut reading = variant(grounding, OTHER_OBJECT, &format!("the {another} is meant, not the {one}"));
+    reading.object = Some(other.clone());
+    Some((reading, format!("Do you want the {one} or the {another}?")))
 }
 
 /// What was taken back could have been meant after all.
-fn uncorrected_room(grounding: &Grounding, chunks: &[ChunkWords], meanings: &[Meaning]) -> Option<(Reading, String)> {
+fn uncorrected_room(grounding: &Grounding, taken_back: Option<Direction>) -> Option<(Reading, String)> {
     let room = grounding.room.as_ref()?;
     let side = room.side?;
-    let taken_back = chunks.iter().zip(meanings).find_map(|(chunk, meaning)| {
-        meaning.side.filter(|said| chunk.tag == Tag::Conf && *said == side.mirrored() && *said != side)
-    })?;
+    let taken_back = taken_back.filter(|said| *said == side.mirrored() && *said != side)?;
     let because = format!("the room on the {} after all", taken_back.name());
     let mut reading = variant(grounding, UNCORRECTED, &because);
     reading.room = Some(RoomSlot { side: Some(taken_back), ..room.clone() });

@@ -1,9 +1,17 @@
-//! Finite-state patterns over units: what each stretch of the description is about.
+//! Phrases with what they mean: computed once, where their words are recognised.
 
+use super::chart::{Edge, cheapest};
 use super::corrections::{continue_moves, rule_out, take_back_corrected};
-use super::cursor::Cursor;
+use super::grammar::{Grammar, RuleKind, Source};
+use super::lexicon::Lexicon;
+use super::matching::Text;
+use super::noun_phrases::{Article, NounPhrase};
+use super::numbers;
+use super::relations::Relation;
+use super::subjects::settle_subjects;
 use super::units::Unit;
-use super::word_class::Role;
+use super::word_class::{Class, Role};
+use crate::record::{Amount, Direction};
 
 /// What a phrase is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,30 +22,107 @@ pub enum Kind {
     Turn,
     /// A room or a door to a room; `inner` is the words that pick it by side.
     Room,
+    /// A room that is left or passed.
+    Leave,
     /// A place relative to the hearer.
     Side,
-    /// A part of the room, a wall, the door.
+    /// A part of the room, a wall, the door; `inner` is the move that leads there.
     Part,
     /// Furniture that holds the object or is gone to; `inner` is the move that leads there.
     Target,
     /// Furniture as landmark; `inner` is the move past it.
     Landmark,
-    /// An object as landmark.
+    /// An object as landmark, or one that holds the object.
     ObjectMark,
     /// The head of a clause about the object.
     Object,
+    /// Who shall have the object.
+    Recipient,
     /// Whose view a direction is said from.
     Perspective,
     /// A self-correction.
     Correction,
     /// What a correction took back.
     Corrected,
+    /// What follows is ruled out.
+    Not,
+    /// What was ruled out.
+    RuledOut,
     /// The end of a sentence.
     Stop,
+    /// Words that mean nothing here.
+    Aside,
 }
 
-/// A stretch of units with what it is about.
+/// What a clause about an object does with it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Act {
+    /// Nothing of the kind.
+    #[default]
+    None,
+    /// Says where it is.
+    State,
+    /// "There is": brings in something.
+    There,
+    /// Find it.
+    Find,
+    /// Bring it.
+    Fetch,
+    /// Give it to somebody.
+    Give,
+    /// Put it somewhere.
+    Put,
+    /// Something else: open, clean.
+    Other,
+    /// "Look down".
+    LookDown,
+}
+
+impl Act {
+    /// Whether it moves the object to another place.
+    pub fn delivers(self) -> bool {
+        matches!(self, Self::Fetch | Self::Give | Self::Put)
+    }
+
+    /// Whether it asks for something to be done.
+    pub fn is_request(self) -> bool {
+        matches!(self, Self::Find | Self::Fetch | Self::Give | Self::Put | Self::Other)
+    }
+}
+
+/// What a place is told from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum From {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// The robot's own motion.
+    Move,
+    /// The hearer.
+    Robot,
+    /// The room.
+    Room,
+    /// A wall.
+    Wall,
+    /// A door.
+    Door,
+    /// The furniture named before.
+    It,
+    /// The nouns of the phrase.
+    Nouns,
+}
+
+/// Who shall have an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Recipient {
+    /// Who speaks.
+    Speaker,
+    /// Whom the unit of that number names.
+    Person(usize),
+}
+
+/// A stretch of units with what it means.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Phrase {
     /// What it is about.
     pub kind: Kind,
@@ -49,120 +134,322 @@ pub struct Phrase {
     pub inner: Option<(usize, usize)>,
     /// The pattern that made it.
     pub rule: &'static str,
+    /// What the clause does with its object.
+    pub act: Act,
+    /// What a place is told from.
+    pub from: From,
+    /// The directions, one or two.
+    pub directions: [Option<Direction>; 2],
+    /// How its words relate to the nouns.
+    pub relation: Option<Relation>,
+    /// Its nouns.
+    pub nouns: Vec<NounPhrase>,
+    /// The left or right that picks a room.
+    pub side: Option<Direction>,
+    /// Who shall have the object.
+    pub recipient: Option<Recipient>,
+    /// How far, or until what.
+    pub amount: Option<Amount>,
+    /// It tells what the furniture before it holds.
+    pub held: bool,
+    /// It says when the room is entered: "as soon as you walk in".
+    pub entering: bool,
 }
 
 impl Phrase {
-    pub(super) fn new(kind: Kind, first: usize, past: usize, rule: &'static str) -> Self {
-        Self { kind, first, past, inner: None, rule }
+    /// Whether a move leads there.
+    pub fn is_reached(&self) -> bool {
+        self.inner.is_some() && matches!(self.kind, Kind::Part | Kind::Target | Kind::Landmark | Kind::ObjectMark)
     }
 
-    pub(super) fn with_inner(self, first: usize, past: usize) -> Self {
-        Self { inner: (first < past).then_some((first, past)), ..self }
+    /// Whether the robot is told to move there itself: "go to the kitchen".
+    pub fn is_moved(&self, units: &[Unit]) -> bool {
+        let first = &units[self.first];
+        first.has(Role::Motion) && !first.has(Role::Put) || first.has(Role::Enter) || first.has(Role::Turn)
+    }
+
+    /// The first noun.
+    pub fn noun(&self) -> Option<&NounPhrase> {
+        self.nouns.first()
     }
 }
 
-/// The phrases of a text, in order, not overlapping.
-pub fn find(units: &[Unit]) -> Vec<Phrase> {
-    let cursor = Cursor::new(units);
-    let mut phrases: Vec<Phrase> = Vec::new();
-    let mut at = 0;
-    while at < cursor.len() {
-        match cursor.phrase_at(at) {
-            Some(phrase) => {
-                at = phrase.past.max(at + 1);
-                phrases.push(phrase);
+/// A text as phrases.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading<'t> {
+    /// Its units.
+    pub units: Vec<Unit<'t>>,
+    /// The phrases, in order, not overlapping.
+    pub phrases: Vec<Phrase>,
+    /// What the reading costs.
+    pub cost: f32,
+}
+
+/// The phrases of a text.
+pub fn find<'t>(units: Vec<Unit<'t>>, lexicon: &Lexicon) -> Reading<'t> {
+    let grammar = Grammar::embedded();
+    let text = Text::new(&units, lexicon, grammar);
+    let path = cheapest(&text, grammar);
+    let mut phrases: Vec<Phrase> = Vec::with_capacity(path.edges.len() + 2);
+    let mut from = 0;
+    for edge in &path.edges {
+        add_stops(&mut phrases, &units, from, edge.first);
+        phrases.push(phrase(&text, grammar, edge));
+        from = edge.past;
+    }
+    add_stops(&mut phrases, &units, from, units.len());
+    settle_subjects(&mut phrases, &units);
+    take_back_corrected(&mut phrases, &units);
+    continue_moves(&mut phrases, &units);
+    rule_out(&mut phrases, &units);
+    Reading { units, phrases, cost: path.cost }
+}
+
+fn add_stops(phrases: &mut Vec<Phrase>, units: &[Unit], from: usize, past: usize) {
+    for at in (from..past).filter(|&at| units[at].stop) {
+        phrases.push(empty(Kind::Stop, at, at + 1, "stop"));
+    }
+}
+
+fn empty(kind: Kind, first: usize, past: usize, rule: &'static str) -> Phrase {
+    Phrase {
+        kind,
+        first,
+        past,
+        inner: None,
+        rule,
+        act: Act::None,
+        from: From::Nothing,
+        directions: [None, None],
+        relation: None,
+        nouns: Vec::new(),
+        side: None,
+        recipient: None,
+        amount: None,
+        held: false,
+        entering: false,
+    }
+}
+
+fn phrase(text: &Text, grammar: &Grammar, edge: &Edge) -> Phrase {
+    let rule = grammar.rule(edge.rule);
+    let caught = &edge.caught;
+    let mut phrase = empty(Kind::Aside, edge.first, edge.past, rule.written);
+    phrase.inner = caught.inner;
+    phrase.relation = caught.relation;
+    phrase.nouns = nouns(text, caught.noun, caught.list_past);
+    phrase.directions = directions(&rule.meaning.directions, &phrase, caught.side, caught.zone);
+    phrase.amount = rule.meaning.fraction.map(Amount::Fraction);
+    for word in &rule.meaning.words {
+        apply(&mut phrase, word, caught.person);
+    }
+    phrase.kind = match rule.kind {
+        RuleKind::Turn => Kind::Turn,
+        RuleKind::Go => Kind::Go,
+        RuleKind::Side => Kind::Side,
+        RuleKind::It => Kind::Landmark,
+        RuleKind::Part => Kind::Part,
+        RuleKind::Room => Kind::Room,
+        RuleKind::Leave => Kind::Leave,
+        // "The lamp by the window", with no verb: the thing that is asked for.
+        RuleKind::Furniture if asks_for_thing(&phrase) => {
+            phrase.act = Act::State;
+            Kind::Object
+        }
+        RuleKind::Related | RuleKind::Furniture => related(&phrase),
+        RuleKind::Held | RuleKind::Inverse => Kind::ObjectMark,
+        RuleKind::Object => object(&phrase),
+        RuleKind::To => Kind::Recipient,
+        RuleKind::View => Kind::Perspective,
+        RuleKind::Correction => Kind::Correction,
+        RuleKind::Not => Kind::Not,
+        RuleKind::Aside => Kind::Aside,
+    };
+    finish(&mut phrase, rule.kind, text, caught.side);
+    phrase
+}
+
+/// What a kind still needs: amounts of moves, sides of rooms, turned relations.
+fn finish(phrase: &mut Phrase, rule: RuleKind, text: &Text, side: Option<Direction>) {
+    let units = text.units;
+    match rule {
+        RuleKind::Turn | RuleKind::Go => phrase.amount = amount(&units[phrase.first..phrase.past]),
+        RuleKind::Room => phrase.side = side.or_else(|| phrase.noun().and_then(|noun| noun.side)),
+        RuleKind::Part if phrase.from == From::Room && is_passage(phrase, units) => {
+            // "On the left side of the hall" picks the room; "at the end of the hall" is on the way.
+            let lateral = matches!(phrase.directions, [Some(Direction::Left | Direction::Right), None]);
+            phrase.kind = if lateral { Kind::Side } else { Kind::Aside };
+            phrase.from = if lateral { From::Robot } else { From::Nothing };
+            phrase.nouns.clear();
+        }
+        RuleKind::Related if units[phrase.first].lower == "with" => phrase.held = true,
+        RuleKind::Held => phrase.held = true,
+        RuleKind::Inverse => {
+            // "The desk has a lamp to the left of it": the desk is to the right of the lamp.
+            let turned = |direction: Direction| match direction {
+                Direction::Front => Direction::Back,
+                Direction::Back => Direction::Front,
+                Direction::Above => Direction::Under,
+                Direction::Under => Direction::Above,
+                other => other.mirrored(),
+            };
+            phrase.directions[0] = match phrase.relation {
+                Some(Relation::Landmark(direction)) => Some(turned(direction)),
+                _ => Some(Direction::Side),
+            };
+        }
+        RuleKind::Related if phrase.kind == Kind::Landmark && phrase.directions[0].is_none() => {
+            phrase.directions[0] = phrase.noun().and_then(|noun| noun.side).or(Some(Direction::Side));
+        }
+        RuleKind::Related | RuleKind::View if phrase.kind != Kind::Target && phrase.directions[0].is_none() => {
+            phrase.directions[0] = Some(Direction::Side);
+        }
+        _ => {}
+    }
+}
+
+/// Whether the room is a hallway.
+fn is_passage(phrase: &Phrase, units: &[Unit]) -> bool {
+    phrase.noun().is_some_and(|noun| {
+        let name = &units[noun.head].lower;
+        name.contains("hall") || name == "corridor"
+    })
+}
+
+fn nouns(text: &Text, first: Option<usize>, past: usize) -> Vec<NounPhrase> {
+    let Some(first) = first else { return Vec::new() };
+    let Some(noun) = text.noun(first) else { return Vec::new() };
+    let mut nouns = vec![*noun];
+    let mut at = noun.past;
+    while at < past {
+        let next = text.noun(at).filter(|noun| noun.past <= past && !text.units[at].has(Role::Conjunction));
+        match next {
+            Some(noun) => {
+                nouns.push(*noun);
+                at = noun.past;
             }
             None => at += 1,
         }
     }
-    take_back_corrected(&mut phrases);
-    continue_moves(&mut phrases, &cursor);
-    rule_out(&mut phrases, &cursor);
-    phrases
+    nouns
 }
 
-impl Cursor<'_> {
-    fn phrase_at(&self, at: usize) -> Option<Phrase> {
-        if self.is_stop(at) {
-            return Some(Phrase::new(Kind::Stop, at, at + 1, "stop"));
+fn directions(
+    sources: &[Source],
+    phrase: &Phrase,
+    side: Option<Direction>,
+    zone: Option<[Option<Direction>; 2]>,
+) -> [Option<Direction>; 2] {
+    let noun = phrase.noun();
+    let mut all: Vec<Direction> = Vec::with_capacity(2);
+    for source in sources {
+        match source {
+            Source::Fixed(direction) => all.push(*direction),
+            Source::Side => all.extend(side),
+            Source::Zone => all.extend(zone.into_iter().flatten().flatten()),
+            Source::Noun => {
+                let told = side.or_else(|| noun.and_then(|noun| noun.side.or(noun.part)));
+                all.push(told.filter(|direction| *direction != Direction::Central).unwrap_or(Direction::Side));
+            }
+            Source::Relation => all.extend(match phrase.relation {
+                Some(Relation::Landmark(direction)) => Some(direction),
+                _ => None,
+            }),
         }
-        self.correction(at)
-            .or_else(|| self.perspective(at))
-            .or_else(|| self.object_clause(at))
-            .or_else(|| self.motion(at))
-            .or_else(|| self.turn(at))
-            .or_else(|| self.room(at, at))
-            .or_else(|| self.place(at))
-            .or_else(|| self.furniture(at, at))
     }
+    [all.first().copied(), all.get(1).copied()]
+}
 
-    /// "As you face it", "when you are looking at the bed", "from your point of view".
-    fn perspective(&self, at: usize) -> Option<Phrase> {
-        if self.is(at, &["from"]) && self.role(at + 1) == Some(Role::Hearer) {
-            let view = self.is(at + 2, &["view", "perspective", "side", "point"]);
-            let of_view = usize::from(self.is(at + 3, &["of"])) * 2;
-            return view.then(|| Phrase::new(Kind::Perspective, at, at + 3 + of_view, "whose view"));
+fn apply(phrase: &mut Phrase, word: &str, person: Option<usize>) {
+    match word {
+        "move" => phrase.from = From::Move,
+        "robot" => phrase.from = From::Robot,
+        "room" => phrase.from = From::Room,
+        "wall" => phrase.from = From::Wall,
+        "door" => {
+            phrase.from = From::Door;
+            phrase.directions[0] = phrase.directions[0].or(Some(Direction::Side));
         }
-        let subject = self.is(at, &["as", "when", "if", "while"]) && self.role(at + 1) == Some(Role::Pronoun);
-        let verb = self.skip(at + 2, &[Role::Copula]);
-        if !subject || !self.is(verb, &["face", "facing", "look", "looking", "looked", "faces", "looks"]) {
-            return None;
+        "enter" => {
+            phrase.from = From::Door;
+            phrase.directions[0] = Some(Direction::Side);
+            phrase.entering = true;
+            phrase.nouns.clear();
         }
-        let object = verb + 1 + usize::from(self.is(verb + 1, &["at", "in", "toward", "towards"]));
-        // "If you look to your left" is a turn.
-        if self.is(object, &["to", "left", "right", "straight", "down"]) {
-            return None;
-        }
-        let pronoun = usize::from(self.is(object, &["it", "them", "that"]));
-        let past = self.noun_phrase(object, false).map_or(object + pronoun, |noun| noun.past);
-        Some(Phrase::new(Kind::Perspective, at, past, "whose view"))
-    }
-
-    fn correction(&self, at: usize) -> Option<Phrase> {
-        let past = self.skip(at, &[Role::Correction]);
-        if self.is(at, &["let"]) && self.is(at + 1, &["'s", "me"]) && self.is(at + 2, &["see"]) {
-            return Some(Phrase::new(Kind::Correction, at, at + 3, "thinking aloud"));
-        }
-        let pronoun = self.is(at, &["i"]) && self.is(at + 1, &["mean"]);
-        match (pronoun, past > at) {
-            (true, _) => Some(Phrase::new(Kind::Correction, at, at + 2, "self-correction")),
-            (_, true) => Some(Phrase::new(Kind::Correction, at, past, "self-correction")),
-            _ => None,
-        }
+        "it" => phrase.from = From::It,
+        "np" => phrase.from = From::Nouns,
+        "to" => phrase.relation = Some(Relation::To),
+        "find" => phrase.act = Act::Find,
+        "fetch" => phrase.act = Act::Fetch,
+        "give" => phrase.act = Act::Give,
+        "put" => phrase.act = Act::Put,
+        "act" => phrase.act = Act::Other,
+        "there" => phrase.act = Act::There,
+        "state" => phrase.act = Act::State,
+        "down" => phrase.act = Act::LookDown,
+        "me" => phrase.recipient = Some(Recipient::Speaker),
+        "him" | "name" => phrase.recipient = person.map(Recipient::Person),
+        _ => {}
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::language::{Lexicon, tokens::tokenize, units};
+fn asks_for_thing(phrase: &Phrase) -> bool {
+    phrase.relation.is_none()
+        && phrase.noun().is_some_and(|noun| can_be_carried(noun) && noun.article == Article::Definite)
+}
 
-    fn kinds(text: &str) -> Vec<Kind> {
-        let words = tokenize(text);
-        find(&units(&words, Lexicon::embedded())).into_iter().map(|phrase| phrase.kind).collect()
+/// What furniture or an object after a relation is: what holds the thing, or a landmark.
+fn related(phrase: &Phrase) -> Kind {
+    let Some(noun) = phrase.noun() else { return Kind::Aside };
+    let landmark = matches!(phrase.relation, Some(Relation::Landmark(_)));
+    match noun.class {
+        // A hat that hangs over a chair is on it.
+        Some(Class::Seat | Class::Couch | Class::Bed)
+            if phrase.relation == Some(Relation::Landmark(Direction::Above)) =>
+        {
+            Kind::Target
+        }
+        // "To the right bed": what was meant is "to the right of the bed".
+        Some(Class::Bed | Class::Couch | Class::Seat) if noun.side.is_some() && noun.article == Article::Definite => {
+            Kind::Landmark
+        }
+        // "On a footlocker": what the lexicon lacks and something stands on is more likely furniture than a thing.
+        Some(Class::Object) if noun.inferred && phrase.relation == Some(Relation::On) => Kind::Target,
+        Some(Class::Object) => Kind::ObjectMark,
+        None if landmark => Kind::ObjectMark,
+        Some(Class::Lamp | Class::Plant) if landmark => Kind::ObjectMark,
+        _ if landmark => Kind::Landmark,
+        _ => Kind::Target,
     }
+}
 
-    #[test]
-    fn moves_turns_and_places() {
-        assert_eq!(kinds("head forward then hang a left"), [Kind::Go, Kind::Turn]);
-        assert_eq!(kinds("keep walking until you hit the wall then right again"), [Kind::Go, Kind::Turn]);
-        assert_eq!(kinds("take three steps forward and make a ninety degree turn to the left"), [Kind::Go, Kind::Turn]);
-    }
+/// Furniture that is asked for is a target; all else is an object. What a statement is about, its place decides.
+fn object(phrase: &Phrase) -> Kind {
+    let fixed =
+        phrase.noun().is_some_and(|noun| noun.is_furniture() && !(can_be_carried(noun) && phrase.act.is_request()));
+    if fixed && phrase.act != Act::State { Kind::Target } else { Kind::Object }
+}
 
-    #[test]
-    fn rooms_and_the_side_that_picks_them() {
-        assert_eq!(kinds("enter the second door on your left"), [Kind::Room]);
-        assert_eq!(kinds("the mug is in the bedroom on the left hand side"), [Kind::Object, Kind::Room]);
-    }
+/// Furniture that a robot may be asked to carry: lamps and plants.
+pub(super) fn can_be_carried(noun: &NounPhrase) -> bool {
+    matches!(noun.class, Some(Class::Lamp | Class::Plant))
+}
 
-    #[test]
-    fn furniture_as_target_and_as_landmark() {
-        assert_eq!(kinds("on the small round table behind the couch"), [Kind::Target, Kind::Landmark]);
-        assert_eq!(kinds("go past the bed to the desk"), [Kind::Landmark, Kind::Target]);
-    }
-
-    #[test]
-    fn a_correction_takes_back_what_stands_before_it() {
-        assert_eq!(kinds("turn left no sorry turn right"), [Kind::Corrected, Kind::Turn]);
-    }
+/// "three steps", "2 m", "forty five degrees".
+fn amount(units: &[Unit]) -> Option<Amount> {
+    let is_unit = |unit: &Unit| {
+        unit.has(Role::Step) || unit.has(Role::FootUnit) || unit.has(Role::MetreUnit) || unit.has(Role::DegreeUnit)
+    };
+    let at = units.iter().rposition(|unit| is_unit(unit) && unit.number.is_none())?;
+    let number = units[..at].iter().rev().find_map(|unit| unit.number.or_else(|| numbers::loose(&unit.lower)))?;
+    let unit = &units[at];
+    Some(if unit.has(Role::FootUnit) {
+        Amount::Meters((number * 0.3048 * 100.0).round() / 100.0)
+    } else if unit.has(Role::MetreUnit) {
+        Amount::Meters(number)
+    } else if unit.has(Role::DegreeUnit) {
+        Amount::Degrees(number)
+    } else {
+        Amount::Steps(number)
+    })
 }

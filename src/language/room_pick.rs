@@ -5,12 +5,13 @@
 //! beside furniture is a place, and after a room that is named outright a
 //! turn is a turn inside it.
 
-use super::phrases::{Kind, Phrase};
-use super::units::{Unit, UnitKind};
-use super::word_class::Role;
+use super::phrases::{From, Kind, Phrase};
+use super::units::Unit;
+use super::word_class::{Class, Role};
 use crate::record::Direction;
 
 /// The phrases that pick the room.
+#[derive(Clone, Debug, PartialEq)]
 pub struct RoomPick {
     /// The phrase that says which.
     pub first: usize,
@@ -57,26 +58,51 @@ impl Reader<'_> {
     /// Left or right, of a turn, a place beside the hearer, or a room with its side.
     fn side(&self, at: usize) -> Option<Direction> {
         let phrase = self.phrases.get(at)?;
-        let (first, past) = match phrase.kind {
-            Kind::Turn | Kind::Side => (phrase.first, phrase.past),
-            Kind::Room => phrase.inner?,
-            _ => return None,
-        };
-        self.units[first..past].iter().rev().find_map(|unit| match (unit.role(), unit.lower.as_ref()) {
-            (Some(Role::Side), "left") => Some(Direction::Left),
-            (Some(Role::Side), "right") => Some(Direction::Right),
+        let lateral = |direction: &Direction| matches!(direction, Direction::Left | Direction::Right);
+        match phrase.kind {
+            Kind::Turn | Kind::Side => phrase.directions[0].filter(lateral),
+            Kind::Room => phrase.side,
             _ => None,
-        })
+        }
     }
 
     /// The first phrase of the pick.
     fn first(&self) -> Option<usize> {
         let all = 0..self.phrases.len();
-        let mut sided = all.clone().filter(|&i| self.side(i).is_some() && !self.is_beside_furniture(i));
-        let rooms = all.clone().find(|&i| self.kind(i) == Some(Kind::Room));
-        let Some(first) = sided.next() else { return rooms };
-        let named = rooms.filter(|&room| room < first && self.is_named(room) && !self.is_sided_by_next(room));
-        if named.is_some() {
+        let entered = all.clone().find(|&i| self.shows_inside(i)).unwrap_or(self.phrases.len());
+        // "In the middle of the room on the left": the side is the room's, wherever it is said.
+        let of_room = |i: usize| {
+            i > 0
+                && self.kind(i) == Some(Kind::Side)
+                && self.kind(i - 1) == Some(Kind::Part)
+                && self.phrases[i - 1].past == self.phrases[i].first
+                && self.phrases[i - 1].noun().is_some_and(|noun| noun.class == Some(Class::Room))
+                && self.units[self.phrases[i - 1].first..self.phrases[i - 1].past].iter().any(|unit| unit.lower == "of")
+                && self.side(i).is_some()
+        };
+        if let Some(own) = all.clone().find(|&i| of_room(i)) {
+            return Some(own);
+        }
+        let picks = |i: &usize| {
+            self.side(*i).is_some()
+                && !self.is_beside_furniture(*i)
+                && (*i < entered || self.kind(*i) == Some(Kind::Room))
+        };
+        let mut sided = all.clone().filter(picks);
+        let rooms = all.clone().filter(|&i| self.kind(i) == Some(Kind::Room));
+        let rooms = rooms.clone().find(|&i| !self.is_passage(i)).or(rooms.clone().next());
+        let Some(first) = sided.next() else { return rooms.or_else(|| self.lone_side(entered)) };
+        let named = rooms.filter(|&room| {
+            room < first && !self.is_passage(room) && self.is_named(room) && !self.is_sided_by_next(room)
+        });
+        // "It's in the bedroom so go right": the room is only mentioned, and the turn leads to it.
+        let leads = named.is_some_and(|room| {
+            self.kind(first) == Some(Kind::Turn)
+                && !self.phrases[room].is_moved(self.units)
+                && !(room..first).any(|i| self.is_inside(i))
+                && self.phrases[first].past < self.units.len()
+        });
+        if named.is_some() && !leads {
             return named;
         }
         let inside = (first..self.phrases.len()).find(|&i| self.is_inside(i)).unwrap_or(self.phrases.len());
@@ -90,6 +116,32 @@ impl Reader<'_> {
         let later = (first + 1..inside).find(|&i| self.kind(i) == Some(Kind::Room) && self.side(i).is_some());
         let later = later.or_else(|| (first + 1..inside).find(|&i| self.side(i).is_some() && self.enters(i)));
         Some(later.unwrap_or(first))
+    }
+
+    /// "On the table to the right", and no room said: the side picks it, unless furniture itself is asked for.
+    fn lone_side(&self, entered: usize) -> Option<usize> {
+        let asked = self
+            .phrases
+            .iter()
+            .any(|phrase| phrase.kind == Kind::Target && phrase.relation.is_none() && !phrase.is_reached());
+        let side = (0..entered).find(|&i| self.kind(i) == Some(Kind::Side) && self.side(i).is_some());
+        side.filter(|_| !asked)
+    }
+
+    /// What shows that the robot is in the room already: it turns round, faces something, or has reached furniture.
+    fn shows_inside(&self, at: usize) -> bool {
+        let phrase = &self.phrases[at];
+        match phrase.kind {
+            Kind::Turn => {
+                phrase.directions[0] == Some(Direction::Back)
+                    && self.units[phrase.first..phrase.past]
+                        .iter()
+                        .any(|unit| matches!(unit.lower.as_ref(), "around" | "round"))
+            }
+            Kind::Perspective => phrase.from == From::Nouns,
+            Kind::Target | Kind::Landmark => phrase.is_reached(),
+            _ => false,
+        }
     }
 
     /// A turn right before "into the room".
@@ -113,15 +165,26 @@ impl Reader<'_> {
     /// "The bedroom", not "the room" or "the door".
     fn is_named(&self, at: usize) -> bool {
         let phrase = &self.phrases[at];
-        self.units[phrase.first..phrase.past].iter().any(|unit| match unit.kind {
-            UnitKind::Noun(name, class) => class == super::word_class::Class::Room && name != "room",
-            _ => false,
+        self.units[phrase.first..phrase.past]
+            .iter()
+            .filter_map(|unit| unit.noun)
+            .any(|noun| noun.class == Class::Room && noun.name != "room")
+    }
+
+    /// A hallway or a crossing on the way.
+    fn is_passage(&self, at: usize) -> bool {
+        let phrase = &self.phrases[at];
+        phrase.noun().is_some_and(|noun| {
+            let name = &self.units[noun.head].lower;
+            name.contains("hall") || matches!(name.as_ref(), "corridor" | "intersection" | "junction")
         })
     }
 
     /// "In the living room … on the right", the side right after the room.
     fn is_sided_by_next(&self, room: usize) -> bool {
-        self.kind(room + 1) == Some(Kind::Side) && self.phrases[room].past == self.phrases[room + 1].first
+        self.kind(room + 1) == Some(Kind::Side)
+            && self.side(room + 1).is_some()
+            && self.phrases[room].past == self.phrases[room + 1].first
     }
 
     /// Rooms that follow belong to the pick, and so does the door at which to turn.
@@ -156,14 +219,14 @@ impl Reader<'_> {
         let phrase = &self.phrases[at];
         match phrase.kind {
             Kind::Part => self.is_door(phrase),
-            Kind::Side => self.units[phrase.first].role() == Some(Role::Ahead) && self.side(at).is_none(),
+            Kind::Side => self.units[phrase.first].has(Role::Ahead) && self.side(at).is_none(),
             _ => false,
         }
     }
 
     fn is_door(&self, phrase: &Phrase) -> bool {
         let units = &self.units[phrase.first..phrase.past];
-        units.iter().any(|unit| unit.class() == Some(super::word_class::Class::Opening))
+        units.iter().any(|unit| unit.class() == Some(Class::Opening))
     }
 
     /// The room's side said again: before the pick, or with "into the room" after it.

@@ -18,13 +18,18 @@ pub struct Word<'t> {
 /// Endings that are words of their own, longest first.
 const CLITICS: [&str; 7] = ["n't", "'ll", "'re", "'ve", "'s", "'m", "'d"];
 
-/// The words of a text, in order: letters and digits with inner hyphens and apostrophes; anything else by itself.
+/// The words of a text, in order: letters and digits with inner hyphens, apostrophes and decimal marks; anything else
+/// by itself.
 pub fn tokenize(text: &str) -> Vec<Word<'_>> {
-    let mut words = Vec::new();
+    let mut words = Vec::with_capacity(text.len() / 5 + 1);
     let mut start = None;
+    let bytes = text.as_bytes();
     for (at, c) in text.char_indices() {
-        if is_inner(c) {
+        if c.is_ascii_lowercase() || is_inner(c) && !is_dash(bytes, at) && !is_quote(text, at, c) {
             start.get_or_insert(at);
+            continue;
+        }
+        if start.is_some() && is_decimal_mark(bytes, at) {
             continue;
         }
         if let Some(from) = start.take() {
@@ -40,8 +45,42 @@ pub fn tokenize(text: &str) -> Vec<Word<'_>> {
     words
 }
 
+/// Letters, digits, and what holds a word together; soft hyphens and joiners belong to the word they stand in.
 fn is_inner(c: char) -> bool {
-    c.is_alphanumeric() || matches!(c, '\'' | '’' | '-' | '_')
+    c.is_alphanumeric() || matches!(c, '\'' | '’' | '-' | '_' | '\u{2010}' | '\u{2011}') || is_invisible(c)
+}
+
+/// Characters that a typesetter adds and nobody reads.
+fn is_invisible(c: char) -> bool {
+    matches!(c, '\u{ad}' | '\u{200b}'..='\u{200d}' | '\u{2060}' | '\u{feff}')
+}
+
+/// "Table--behind the couch": hyphens side by side are a dash, and so is one at a word's edge.
+fn is_dash(bytes: &[u8], at: usize) -> bool {
+    let letter =
+        |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(|b| b.is_ascii_alphanumeric() || *b >= 128);
+    bytes[at] == b'-' && !(letter(at.checked_sub(1)) && letter(Some(at + 1)))
+}
+
+/// An apostrophe at the edge of a word is a quotation mark, unless it begins a clitic: "'s", "'ll".
+fn is_quote(text: &str, at: usize, c: char) -> bool {
+    if !matches!(c, '\'' | '’') {
+        return false;
+    }
+    let before = text[..at].chars().next_back().is_some_and(char::is_alphanumeric);
+    let rest = &text[at + c.len_utf8()..];
+    let after = rest.chars().next().is_some_and(char::is_alphabetic);
+    if before {
+        return !after;
+    }
+    let end = rest.find(|c: char| !c.is_alphabetic()).unwrap_or(rest.len());
+    !matches!(rest[..end].to_ascii_lowercase().as_str(), "s" | "ll" | "re" | "ve" | "m" | "d" | "til")
+}
+
+/// "1.5", "0,5": a mark between digits belongs to the number.
+fn is_decimal_mark(bytes: &[u8], at: usize) -> bool {
+    let digit = |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(u8::is_ascii_digit);
+    matches!(bytes[at], b'.' | b',') && digit(at.checked_sub(1)) && digit(Some(at + 1))
 }
 
 /// Splits "it's" into "it" and "'s"; a word that is only a clitic stays whole.
@@ -77,7 +116,15 @@ fn lowered(word: &str) -> Cow<'_, str> {
     if word.bytes().all(|byte| byte.is_ascii() && !byte.is_ascii_uppercase()) {
         return Cow::Borrowed(word);
     }
-    Cow::Owned(word.to_lowercase().replace('’', "'"))
+    if word.is_ascii() {
+        return Cow::Owned(word.to_ascii_lowercase());
+    }
+    let plain = |c: char| match c {
+        '’' => '\'',
+        '\u{2010}' | '\u{2011}' => '-',
+        other => other,
+    };
+    Cow::Owned(word.to_lowercase().chars().filter(|c| !is_invisible(*c)).map(plain).collect())
 }
 
 #[cfg(test)]
@@ -108,6 +155,15 @@ mod tests {
         let covered: usize = tokenize(text).iter().map(|w| w.end - w.start).sum();
         assert_eq!(covered, text.chars().filter(|c| !c.is_whitespace()).map(char::len_utf8).sum::<usize>());
         assert!(tokenize(text).iter().all(|w| &text[w.start..w.end] == w.text));
+    }
+
+    #[test]
+    fn typography_is_read_as_if_written_plainly() {
+        let lower = |text| tokenize(text).into_iter().map(|word| word.lower.into_owned()).collect::<Vec<_>>();
+        assert_eq!(lower("the 'mug' on ‘it’"), ["the", "'", "mug", "'", "on", "‘", "it", "’"]);
+        assert_eq!(lower("table--behind"), ["table", "-", "-", "behind"]);
+        assert_eq!(lower("cof\u{ad}fee\u{2011}table"), ["coffee-table"]);
+        assert_eq!(lower("0,5 or 1.5 m. Then"), ["0,5", "or", "1.5", "m", ".", "then"]);
     }
 
     #[test]

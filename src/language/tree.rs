@@ -1,7 +1,9 @@
 //! Phrases nested under the nine tags.
 
+use std::ops::Range;
+
 use super::phrases::{Kind, Phrase};
-use super::room_pick::{self, RoomPick, is_lead};
+use super::room_pick::{RoomPick, is_lead};
 use super::tokens::Word;
 use super::units::Unit;
 use crate::record::{Chunk, Tag};
@@ -34,19 +36,16 @@ impl Node {
     }
 }
 
-/// The chunk tree of a description.
-pub fn build(phrases: &[Phrase], units: &[Unit], words: &[Word]) -> Vec<Chunk> {
+/// The chunk tree of a description: each errand with the phrases that pick its room.
+pub fn build(
+    errands: &[(Range<usize>, Option<RoomPick>)],
+    phrases: &[Phrase],
+    units: &[Unit],
+    words: &[Word],
+) -> Vec<Chunk> {
     let mut builder = Builder { roots: Vec::new(), object: None, target: None };
-    let picked = room_pick::pick(phrases, units);
-    for (i, phrase) in phrases.iter().enumerate() {
-        match picked {
-            Some(ref pick) if i == pick.first => builder.add_room(pick, phrases),
-            Some(ref pick) if pick.covers(i) => {}
-            // Motions before the room is entered lead to it and make nothing of their own.
-            Some(ref pick) if i < pick.first && (is_lead(phrase) || pick.on_the_way.contains(&i)) => {}
-            Some(ref pick) if pick.restated.contains(&i) => builder.restate_room(phrase),
-            _ => builder.add(phrase),
-        }
+    for (range, picked) in errands {
+        builder.add_errand(&phrases[range.clone()], picked.as_ref());
     }
     builder.finish().into_iter().map(|node| chunk(node, units, words)).collect()
 }
@@ -58,10 +57,27 @@ struct Builder {
 }
 
 impl Builder {
+    fn add_errand(&mut self, phrases: &[Phrase], picked: Option<&RoomPick>) {
+        for (i, phrase) in phrases.iter().enumerate() {
+            match picked {
+                Some(pick) if i == pick.first => self.add_room(pick, phrases),
+                Some(pick) if pick.covers(i) => {}
+                // Motions before the room is entered lead to it and make nothing of their own.
+                Some(pick) if i < pick.first && (is_lead(phrase) || pick.on_the_way.contains(&i)) => {}
+                Some(pick) if pick.restated.contains(&i) => self.restate_room(phrase),
+                _ => self.add(phrase),
+            }
+        }
+    }
+
     fn add(&mut self, phrase: &Phrase) {
         match phrase.kind {
             Kind::Stop => self.close_object(),
             Kind::Go | Kind::Turn => {
+                self.close_object();
+                self.roots.push(Node::new(Tag::Irmrp, phrase));
+            }
+            Kind::Part if phrase.is_reached() => {
                 self.close_object();
                 self.roots.push(Node::new(Tag::Irmrp, phrase));
             }
@@ -85,9 +101,9 @@ impl Builder {
                 self.object = Some(Node::new(Tag::Obtp, phrase));
             }
             Kind::Room => self.attach(Node::new(Tag::Ormtp, phrase).with_child(Tag::Ormrp, phrase.inner)),
-            Kind::Corrected => self.attach(Node::new(Tag::Conf, phrase)),
+            Kind::Corrected | Kind::RuledOut => self.attach(Node::new(Tag::Conf, phrase)),
             Kind::Perspective => self.attach(Node::new(Tag::Pers, phrase)),
-            Kind::Correction => {}
+            Kind::Correction | Kind::Not | Kind::Aside | Kind::Leave | Kind::Recipient => {}
         }
     }
 

@@ -42,7 +42,7 @@ pub(crate) mod tabletop;
 pub(crate) mod upright;
 pub(crate) mod walls;
 
-pub use detector::Detector;
+pub use detector::{Detector, furniture_chance};
 pub use external::{ExternalDetector, ExternalError};
 pub use frame_error::FrameError;
 pub use frame_files::{FrameFiles, check};
@@ -54,7 +54,7 @@ pub use stage::{Perceiver, text_line};
 pub use upright::{CAMERA_HEIGHTS_M, CAMERA_TILTS_DEG, Depths, NoPose, Told, camera_over_floor};
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::frame::RgbdFrame;
 use crate::geometry::Pose;
@@ -91,7 +91,7 @@ pub struct View {
 }
 
 /// A small object in the picture.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ObjectSighting {
     /// What it is taken for.
     pub name: String,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::external::ExternalDetector;
-use super::{Detector, FrameFiles, ObjectSighting, Told, View, check, overlay};
+use super::{Detector, FrameFiles, ObjectSighting, Told, View, check, furniture_chance, overlay};
 use crate::files::write_file;
 use crate::frame::RgbdFrame;
 use crate::map::RoomMap;
@@ -23,7 +23,7 @@ pub struct Perceiver {
     pub map: Option<RoomMap>,
     /// What is known of the camera of frames that do not tell where it was.
     pub told: Told,
-    /// What is less sure than this is left out.
+    /// What is less surely furniture than this is left out.
     pub least_confidence: f64,
     /// Where to draw what was found.
     pub overlay: Option<PathBuf>,
@@ -32,16 +32,16 @@ pub struct Perceiver {
 }
 
 impl Perceiver {
-    /// What a frame shows, from whatever source it comes; `name` is that of its drawing.
-    pub fn look(&self, name: &str, frame: &RgbdFrame) -> Result<View, StageError> {
+    /// What a frame shows, from whatever source it comes; `name` is that of its drawing, `from` says how its pose is known.
+    pub fn look(&self, name: &str, frame: &RgbdFrame, from: PoseSource) -> Result<View, StageError> {
         check(frame).map_err(|error| StageError::new(error.to_string()))?;
         let view = match &self.external {
             None => self.detector.detect(frame, self.map.as_ref()),
             Some(external) => external_view(external, frame)?,
         };
-        let furniture = view.furniture.into_iter().filter(|piece| piece.confidence >= self.least_confidence).collect();
+        let furniture = view.furniture.into_iter().filter(|piece| is_surely(piece, self.least_confidence)).collect();
         let view = View { furniture, ..view };
-        self.draw(name, frame, &view)?;
+        self.draw(name, frame, &view, from)?;
         Ok(view)
     }
 
@@ -52,14 +52,14 @@ impl Perceiver {
     }
 
     fn add(&self, name: &str, frame: &RgbdFrame, from: PoseSource, record: &mut Record) -> Result<Note, StageError> {
-        let view = self.look(name, frame)?;
+        let view = self.look(name, frame, from)?;
         record.set("camera", &CameraPose::new(frame.world_from_camera, from));
         record.put(&view.furniture);
         record.set("objects", &view.objects.into_iter().map(rounded).collect::<Vec<_>>());
         Ok(Note::Done)
     }
 
-    fn draw(&self, name: &str, frame: &RgbdFrame, view: &View) -> Result<(), StageError> {
+    fn draw(&self, name: &str, frame: &RgbdFrame, view: &View, from: PoseSource) -> Result<(), StageError> {
         let Some(folder) = &self.overlay else { return Ok(()) };
         let plain: String =
             name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect();
@@ -67,7 +67,8 @@ impl Perceiver {
             std::fs::create_dir_all(folder).map_err(|error| StageError::new(format!("{}: {error}", folder.display())));
         written?;
         let path = folder.join(format!("{plain}.png"));
-        write_file(&path, &overlay(frame, view), self.force).map_err(|error| StageError::new(error.to_string()))
+        write_file(&path, &overlay(frame, view, &caption(frame, from)), self.force)
+            .map_err(|error| StageError::new(error.to_string()))
     }
 
     /// The frame a record names.
@@ -80,6 +81,12 @@ impl Perceiver {
         let (frame, from) = files.load(&self.folder, self.told).map_err(|error| StageError::new(error.to_string()))?;
         Ok((files.frame.unwrap_or_else(|| stem(&files.depth)), frame, from))
     }
+}
+
+/// Whether it is at least so surely furniture; where no scores tell, its confidence has to.
+fn is_surely(piece: &Detection, least: f64) -> bool {
+    let chance = if piece.scores.is_empty() { piece.confidence } else { furniture_chance(piece) };
+    chance >= least
 }
 
 fn rounded(object: ObjectSighting) -> ObjectSighting {
@@ -112,10 +119,32 @@ impl Stage for Perceiver {
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
         let detections: Vec<Detection> = record.require_part("it is what `perceive` adds")?;
-        let mut lines: Vec<String> = record.get::<String>("frame")?.into_iter().collect();
-        lines.extend(detections.iter().map(text_line));
-        Ok(lines.join("\n"))
+        let objects: Vec<ObjectSighting> = record.get("objects")?.unwrap_or_default();
+        let frame = record.get::<String>("frame")?.or_else(|| record.id()).unwrap_or_default();
+        let small = |o: &ObjectSighting| {
+            let name = if o.recognisable { o.name.clone() } else { format!("{}?", o.name) };
+            format!("  {name:12} a small thing at ({:.2}, {:.2})", o.x, o.y)
+        };
+        let mut lines: Vec<String> = detections.iter().map(text_line).chain(objects.iter().map(small)).collect();
+        if lines.is_empty() {
+            lines.push("  nothing".to_string());
+        }
+        Ok(lines.into_iter().map(|line| format!("{frame}{line}")).collect::<Vec<_>>().join("\n"))
     }
+}
+
+/// Where the camera was, for people.
+fn caption(frame: &RgbdFrame, from: PoseSource) -> String {
+    let CameraPose { height, tilt, roll, .. } = CameraPose::new(frame.world_from_camera, from);
+    let known = match from {
+        PoseSource::Record => "as the record says",
+        PoseSource::Transforms => "by the log's transforms",
+        PoseSource::AssumedMount => "as usual on a robot",
+        PoseSource::Floor => "by the floor",
+        PoseSource::Gravity => "by the height told and what is upright",
+        PoseSource::Told => "as told",
+    };
+    format!("camera {height:.2} m up, {tilt:.0} deg down, roll {roll:.0} deg, {known}")
 }
 
 /// One piece on a line, for people.

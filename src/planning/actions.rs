@@ -5,7 +5,7 @@ use crate::language::Lexicon;
 use crate::record::{Action, Amount, Direction, Frame, Motion, Node, Pair, Reference, SearchPair};
 
 /// The actions for the nodes, ending in exactly one search with the object's search behind it.
-pub fn actions_for(nodes: &[Node], object: Option<&str>, lexicon: &Lexicon) -> Vec<Action> {
+pub fn actions_for(nodes: &[Node], objects: &[Option<String>], not: &[String], lexicon: &Lexicon) -> Vec<Action> {
     let nodes = merge_repeated_targets(nodes, lexicon);
     let last_search = nodes.iter().rposition(|node| node.target.is_some());
     let mut actions = Vec::new();
@@ -13,8 +13,8 @@ pub fn actions_for(nodes: &[Node], object: Option<&str>, lexicon: &Lexicon) -> V
         let is_last = last_search.is_none_or(|last| i >= last);
         actions.extend(actions_of_node(node, is_last, i + 1 == nodes.len(), lexicon));
     }
-    gather_searches(&mut actions);
-    actions.push(Action::Find { object: object.map(str::to_string) });
+    gather_searches(&mut actions, not);
+    actions.extend(objects.iter().map(|object| Action::Find { object: object.clone() }));
     actions
 }
 
@@ -66,6 +66,7 @@ fn actions_of_node(node: &Node, is_last: bool, ends_here: bool, lexicon: &Lexico
             attributes: node.attributes.clone(),
             ordinal: node.ordinal,
             pairs: searched,
+            not: Vec::new(),
         }),
         _ => {}
     }
@@ -106,11 +107,11 @@ fn search_pair(pair: &Pair, lexicon: &Lexicon) -> SearchPair {
 }
 
 /// One search at the end: hints said before the target ("on the right, on the table") join the target's own pairs.
-fn gather_searches(actions: &mut Vec<Action>) {
+fn gather_searches(actions: &mut Vec<Action>, not: &[String]) {
     let mut gathered: Vec<SearchPair> = Vec::new();
     let mut wanted: (Option<String>, Vec<String>, Option<u32>) = (None, Vec::new(), None);
     actions.retain(|action| match action {
-        Action::Search { target, attributes, ordinal, pairs } => {
+        Action::Search { target, attributes, ordinal, pairs, .. } => {
             gathered.extend(pairs.iter().cloned());
             if target.is_some() {
                 wanted = (target.clone(), attributes.clone(), *ordinal);
@@ -120,7 +121,7 @@ fn gather_searches(actions: &mut Vec<Action>) {
         _ => true,
     });
     let (target, attributes, ordinal) = wanted;
-    actions.push(Action::Search { target, attributes, ordinal, pairs: gathered });
+    actions.push(Action::Search { target, attributes, ordinal, pairs: gathered, not: not.to_vec() });
 }
 
 #[cfg(test)]
@@ -161,7 +162,7 @@ mod tests {
             node(Some("table"), vec![pair("couch", Direction::Back)]),
         ];
         assert_eq!(names(&nodes), ["go", "search", "find"]);
-        let actions = actions_for(&nodes, None, Lexicon::embedded());
+        let actions = actions_for(&nodes, &[None], &[], Lexicon::embedded());
         assert!(matches!(&actions[1], Action::Search { target: Some(_), pairs, .. } if pairs.len() == 2));
     }
 

@@ -86,7 +86,8 @@ fn disagreement(name: &str, side: Direction, named: &[String], chosen: &str) -> 
     }
 }
 
-fn names(map: &RoomMap) -> String {
+/// The rooms of a map, for people.
+pub fn names(map: &RoomMap) -> String {
     map.rooms.iter().map(|room| format!("`{}`", room.name)).collect::<Vec<_>>().join(", ")
 }
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The paper's seven directions.
+/// The paper's seven directions, and three beyond them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Direction {
@@ -21,6 +21,12 @@ pub enum Direction {
     Side,
     /// Between two references.
     Between,
+    /// Over it.
+    Above,
+    /// Below it.
+    Under,
+    /// Of several, the one farthest from it.
+    Far,
 }
 
 impl Direction {
@@ -34,7 +40,29 @@ impl Direction {
             Self::Central => "central",
             Self::Side => "side",
             Self::Between => "between",
+            Self::Above => "above",
+            Self::Under => "under",
+            Self::Far => "far",
         }
+    }
+
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::Front,
+        Self::Back,
+        Self::Left,
+        Self::Right,
+        Self::Central,
+        Self::Side,
+        Self::Between,
+        Self::Above,
+        Self::Under,
+        Self::Far,
+    ];
+
+    /// The direction of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|direction| direction.name() == name)
     }
 
     /// Left for right and right for left; the others as they are.

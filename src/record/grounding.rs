@@ -14,6 +14,18 @@ pub struct Grounding {
     pub object: Option<ObjectSlot>,
     /// Reference–direction–target nodes, in the order spoken.
     pub nodes: Vec<Node>,
+    /// Further objects of the same errand.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub also: Vec<ObjectSlot>,
+    /// Where the objects shall be brought or put; absent when nowhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub destination: Option<Destination>,
+    /// What is ruled out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not: Vec<RuledOut>,
+    /// Further errands, in the order said.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub then: Vec<Grounding>,
     /// Confidence in the best whole reading, 0 to 1.
     #[serde(default)]
     pub score: Rounded,
@@ -38,6 +50,63 @@ pub struct Grounding {
     /// Per chunk: what it was taken for and why.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub why: Vec<Why>,
+}
+
+/// Where objects shall be brought or put.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Destination {
+    /// Who shall have them: `speaker`, or a name or description in lower_snake.
+    pub recipient: Option<String>,
+    /// The room.
+    pub room: Option<String>,
+    /// Noun of the furniture or container, in lower_snake.
+    pub target: Option<String>,
+}
+
+impl Destination {
+    /// Whether nothing was said of it.
+    pub fn is_empty(&self) -> bool {
+        self.recipient.is_none() && self.room.is_none() && self.target.is_none()
+    }
+
+    /// The goal in words: "to the counter in the kitchen", "back to the speaker".
+    pub fn phrase(&self) -> String {
+        let spoken = |name: &String| name.replace('_', " ");
+        let mut parts: Vec<String> = Vec::new();
+        match self.recipient.as_deref() {
+            Some("speaker") => parts.push("back to the speaker".to_string()),
+            Some(name) => parts.push(format!("to {}", name.replace('_', " "))),
+            None => {}
+        }
+        parts.extend(self.target.as_ref().map(|target| format!("to the {}", spoken(target))));
+        parts.extend(self.room.as_ref().map(|room| {
+            if self.target.is_none() && self.recipient.is_none() {
+                format!("to the {}", spoken(room))
+            } else {
+                format!("in the {}", spoken(room))
+            }
+        }));
+        parts.join(" ")
+    }
+}
+
+/// What `ground` doubted, for stages that come later: its warnings and its question.
+///
+/// # Errors
+/// When the record's `grounding` is none.
+pub fn doubts_of(record: &super::Record) -> Result<Vec<String>, super::FieldError> {
+    let grounding: Option<Grounding> = record.get("grounding")?;
+    Ok(grounding.map_or_else(Vec::new, |grounding| {
+        let further = grounding.then.into_iter().flat_map(|next| next.warnings);
+        grounding.warnings.into_iter().chain(further).chain(grounding.question).collect()
+    }))
+}
+
+/// Something that is ruled out.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct RuledOut {
+    /// A noun or the name of a room, in lower_snake.
+    pub name: String,
 }
 
 /// A whole reading that lost to the best one.
@@ -164,6 +233,9 @@ impl Pair {
             (Direction::Between, Some(and)) => format!("between the {reference} and the {}", and.words()),
             (Direction::Between, None) => format!("between the {reference}s"),
             (Direction::Side, _) => format!("next to the {reference}"),
+            (Direction::Above, _) => format!("above the {reference}"),
+            (Direction::Under, _) => format!("under the {reference}"),
+            (Direction::Far, _) => format!("far from the {reference}"),
             (direction, _) => format!("{} of the {reference}", direction.name()),
         }
     }

@@ -25,7 +25,9 @@ pub use camera::{CameraPose, PoseSource};
 pub use chunk::{Chunk, Tag, Token};
 pub use detection::Detection;
 pub use direction::{Direction, Frame, Motion};
-pub use grounding::{Amount, Grounding, Node, ObjectSlot, Pair, Reading, RoomSlot, TextSpan, Why};
+pub use grounding::{
+    Amount, Destination, Grounding, Node, ObjectSlot, Pair, Reading, RoomSlot, RuledOut, TextSpan, Why, doubts_of,
+};
 pub use hof::{DegreeOfTruth, Hof, HofForce};
 pub use line::{FieldError, Record, message_without_position};
 pub use part::Part;
@@ -33,4 +35,4 @@ pub use plan::{Action, Plan, SearchPair};
 pub use precision::Rounded;
 pub use reference::Reference;
 pub use stage::{Note, Stage, StageError};
-pub use trial::{ActionReport, Outcome, PathPoint, Trial};
+pub use trial::{ActionReport, Delivery, Outcome, PathPoint, Trial};

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Amount, Direction, Frame, Motion, Pair, Reference};
+use super::{Amount, Destination, Direction, Frame, Motion, Pair, Reference};
 
 /// A queue of actions for the three subtasks: enter the room, navigate inside it, find the object.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -63,11 +63,21 @@ pub enum Action {
         ordinal: Option<u32>,
         /// References and directions in the order spoken.
         pairs: Vec<SearchPair>,
+        /// Furniture that is not looked at: what was ruled out, and where the object shall be put.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        not: Vec<String>,
     },
     /// Look for the object where the search led.
     Find {
         /// Noun of the object; null for any portable object on the target.
         object: Option<String>,
+    },
+    /// Bring what was found somewhere.
+    Deliver {
+        /// Nouns of the objects.
+        objects: Vec<String>,
+        /// Where to: back to the speaker, who is where the robot started, to a room of the map, to furniture.
+        to: Destination,
     },
 }
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Rounded;
+use super::{Destination, Rounded};
 use crate::geometry::Pose;
 
 /// What became of a plan on a robot.
@@ -34,10 +34,24 @@ pub struct Trial {
     pub collisions: u32,
     /// The least distance between the robot's outline and anything solid.
     pub min_clearance_m: Option<Rounded>,
+    /// What was brought where, in order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub delivered: Vec<Delivery>,
     /// What was done, and why.
     pub actions: Vec<ActionReport>,
     /// Where the robot was: seconds, x, y, heading.
     pub path: Vec<PathPoint>,
+}
+
+/// Objects that were brought somewhere.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Delivery {
+    /// Nouns of the objects.
+    pub objects: Vec<String>,
+    /// Where they should go.
+    pub to: Destination,
+    /// Where the robot was when it had brought them.
+    pub pose: Pose,
 }
 
 /// How a trial ended.
@@ -65,7 +79,7 @@ pub enum Outcome {
 /// One action as it went.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ActionReport {
-    /// The action's name in the plan: `enter`, `move`, `go`, `search`, `find`.
+    /// The action's name in the plan: `enter`, `move`, `go`, `search`, `find`, `deliver`.
     #[serde(rename = "do")]
     pub action: String,
     /// How it ended.

@@ -12,7 +12,7 @@ use crate::robot::MobileBase;
 
 /// Runs `plan` in `home`. `stream` picks the record's own random numbers under the seed ([`super::stream_of`]).
 pub fn run(home: &Home, plan: &Plan, settings: &TrialSettings, stream: u64, watcher: &mut dyn Watcher) -> Run {
-    let noise = settings.noise.of(home.scene.noise.unwrap_or_default());
+    let noise = settings.noise_in(home.scene.noise.unwrap_or_default());
     let obstacles = Obstacles::new(&home.map, &home.scene);
     let mut base = SimulatedBase::with_noise(obstacles, home.map.start, noise, settings.seed, stream);
     let truth = base.truth();
@@ -37,6 +37,7 @@ pub fn run(home: &Home, plan: &Plan, settings: &TrialSettings, stream: u64, watc
         spl: verdict.spl.map(Into::into),
         collisions: truth.collisions,
         min_clearance_m: Some(truth.min_clearance_m.into()),
+        delivered: report.delivered,
         actions: report.journal.actions,
         path,
     };
@@ -45,7 +46,8 @@ pub fn run(home: &Home, plan: &Plan, settings: &TrialSettings, stream: u64, watc
 
 /// What the robot took for the object need not be it: found is what truly is recognisable in the last picture.
 fn confirm(report: &mut Report, home: &Home, object: Option<&str>, pose: Pose) {
-    if report.outcome == Outcome::Found && !is_recognisable(home, object, pose) {
+    // What was carried away is in no last picture.
+    if report.outcome == Outcome::Found && report.delivered.is_empty() && !is_recognisable(home, object, pose) {
         report.outcome = Outcome::NotFound;
         report.why = format!("mistaken: {}", report.why);
     }

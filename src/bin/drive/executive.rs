@@ -5,6 +5,7 @@ use spatial_fetch::behavior::Options;
 use spatial_fetch::cli::{TIME_LIMIT_S, within};
 
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Executive")]
 pub struct Arguments {
     /// Room and object only, nearest table first: the yardstick for what the words are worth

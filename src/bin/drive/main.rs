@@ -26,9 +26,15 @@ use spatial_fetch::simulation::{Driver, NoiseLevel, TrialSettings};
 struct Arguments {
     #[command(flatten)]
     home: HomeArguments,
-    /// How imperfect the robot's wheels, sonars, compass and start are
-    #[arg(long, value_enum, default_value = "default")]
-    noise: NoiseLevel,
+    /// How imperfect the simulated robot's wheels, sonars, compass and start are [default: default, with --serve off]
+    #[arg(long, value_enum)]
+    noise: Option<NoiseLevel>,
+    /// Seconds after which the simulated robot does what it is told, where it is not what its world says
+    #[arg(long, value_name = "SECONDS", value_parser = cli::within(cli::DELAY_S))]
+    dead_time: Option<f64>,
+    /// Up to so many seconds more, differently each time
+    #[arg(long, value_name = "SECONDS", value_parser = cli::within(cli::DELAY_S))]
+    jitter: Option<f64>,
     #[command(flatten)]
     eyes: EyeArguments,
     #[command(flatten)]
@@ -75,19 +81,14 @@ impl Arguments {
 
     fn drive(self, reporter: Reporter) -> Result<Exit, Failure> {
         if self.robot.serves() {
-            return self.robot.run_served(&self.home.load()?, &reporter, self.common.seed);
+            let settings = self.settings(NoiseLevel::Off);
+            return self.robot.run_served(&self.home.load()?, &reporter, settings, self.common.force);
         }
         if self.robot.is_real() {
             return self.drive_real(reporter);
         }
         let home = self.home.load()?;
-        let settings = TrialSettings {
-            options: self.executive.options(),
-            perception: self.eyes.perception,
-            kinect: self.eyes.kinect(),
-            noise: self.noise,
-            seed: self.common.seed,
-        };
+        let settings = self.settings(NoiseLevel::Default);
         let recorded = self.trial_options().line();
         let watched = self.outputs.is_live();
         let outputs = self.outputs.outputs(self.common.force, recorded, &reporter)?;
@@ -96,6 +97,19 @@ impl Arguments {
         let common = if watched { Common { jobs: 1, ..self.common } } else { self.common };
         let driver = Driver { home, settings, outputs };
         cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, &driver)
+    }
+
+    /// How the simulated robot is, with that noise where none is given.
+    fn settings(&self, usual: NoiseLevel) -> TrialSettings {
+        TrialSettings {
+            options: self.executive.options(),
+            perception: self.eyes.perception,
+            kinect: self.eyes.kinect(),
+            noise: self.noise.unwrap_or(usual),
+            dead_time_s: self.dead_time,
+            jitter_s: self.jitter,
+            seed: self.common.seed,
+        }
     }
 
     /// Drives a real robot, of whose home the rooms alone are known.

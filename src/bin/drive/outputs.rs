@@ -11,6 +11,7 @@ use spatial_fetch::recording::Live;
 use spatial_fetch::recording::Outputs;
 
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Outputs")]
 pub struct Arguments {
     /// Draw the way through the rooms; {id} stands for the record's id

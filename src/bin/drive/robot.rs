@@ -17,7 +17,7 @@ use spatial_fetch::robot::arcos::parameters::Parameters;
 use spatial_fetch::robot::p3dx::SonarArray;
 use spatial_fetch::simulation::arcos::DryLine;
 use spatial_fetch::simulation::arcos::{ServeAddress, ServerSettings};
-use spatial_fetch::simulation::{Home, Served};
+use spatial_fetch::simulation::{self, Home, Served};
 
 /// The models whose scales are known.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -29,6 +29,7 @@ enum Model {
 }
 
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Robot")]
 pub struct Arguments {
     /// sim, `serial:/dev/ttyUSB0[@38400]` or tcp:HOST:8101
@@ -102,16 +103,25 @@ impl Arguments {
     }
 
     /// Serves until interrupted.
-    pub fn run_served(self, home: &Home, reporter: &Reporter, seed: u64) -> Result<Exit, Failure> {
+    pub fn run_served(
+        self,
+        home: &Home,
+        reporter: &Reporter,
+        how: simulation::ArcosSettings,
+        force: bool,
+    ) -> Result<Exit, Failure> {
         let Some(address) = self.serve else { return Ok(Exit::Done) };
         let settings = ServerSettings { watchdog: Duration::from_millis(self.watchdog), ..ServerSettings::default() };
-        let served = Served { address, settings, camera: self.camera_out, truth: self.truth_out, seed };
+        if let Some(truth) = &self.truth_out {
+            spatial_fetch::files::refuse_existing(truth, force)?;
+        }
+        let served = Served { address: address.clone(), settings, camera: self.camera_out, truth: self.truth_out, how };
         let stop = spatial_fetch::simulation::served_until_interrupted();
         let closing = stop.clone();
         on_interrupt(move || closing.stop());
         let run = served.run(home, || stop.goes_on(), |text| reporter.remark(text));
         stop.ended();
-        run.map(|()| Exit::Done).map_err(|error| Failure::Failed(format!("--serve: {error}")))
+        run.map(|()| Exit::Done).map_err(|error| Failure::Failed(format!("--serve {address}: {error}")))
     }
 
     /// Connects to the robot.

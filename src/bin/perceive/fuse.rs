@@ -73,8 +73,8 @@ impl Gathering<'_> {
 fn look_at_line(perceiver: &Perceiver, line: &Line) -> Result<Option<SceneView>, Diagnostic> {
     let Some(record) = cli::record_of(line, super::INTAKE)? else { return Ok(None) };
     let view = || -> Result<SceneView, StageError> {
-        let (name, frame, _) = perceiver.frame_of(&record)?;
-        let view = perceiver.look(&name, &frame)?;
+        let (name, frame, from) = perceiver.frame_of(&record)?;
+        let view = perceiver.look(&name, &frame, from)?;
         let said = record.get::<String>("scene")?;
         Ok(SceneView::new(said.unwrap_or_else(|| scene_of(&name).to_string()), name, &frame, view))
     };
@@ -84,7 +84,7 @@ fn look_at_line(perceiver: &Perceiver, line: &Line) -> Result<Option<SceneView>,
 /// A log is one scene.
 fn look_at_item(perceiver: &Perceiver, item: &FrameItem) -> Result<SceneView, Diagnostic> {
     let (name, frame) = (item.ordinal.to_string(), &item.timed.frame);
-    let view = perceiver.look(&name, frame);
+    let view = perceiver.look(&name, frame, item.timed.pose_from);
     let place = format!("{}: frame {name}", item.file);
     view.map(|view| SceneView::new(item.file.clone(), name, frame, view)).map_err(|error| Diagnostic {
         place,

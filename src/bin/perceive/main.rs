@@ -42,8 +42,8 @@ struct Arguments {
     /// How far down the camera looks, degrees, for frames that do not tell their camera's pose
     #[arg(long, value_name = "DEGREES", value_parser = cli::within(CAMERA_TILTS_DEG), allow_negative_numbers = true)]
     camera_tilt: Option<f64>,
-    /// Leave out what is less sure than this, 0 to 1
-    #[arg(long, value_name = "CONFIDENCE", default_value_t = 0.3, value_parser = cli::within(0.0..=1.0))]
+    /// Leave out what is less surely furniture than this, 0 to 1; 0 gives every guess
+    #[arg(long, value_name = "CONFIDENCE", default_value_t = 0.5, value_parser = cli::within(0.0..=1.0))]
     least_confidence: f64,
     /// A model that `evaluate train` made [default: the one built in]
     #[arg(long, value_name = "FILE", conflicts_with = "detector")]

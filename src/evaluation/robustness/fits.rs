@@ -41,7 +41,7 @@ fn by_robot(item: &Item, direction: Direction, arrived: Pose) -> bool {
         Direction::Left => (30.0..=120.0).contains(&off),
         Direction::Right => (-120.0..=-30.0).contains(&off),
         Direction::Back => off.abs() > 130.0,
-        Direction::Side | Direction::Central | Direction::Between => at < 2.0,
+        _ => at < 2.0,
     };
     toward && at < 4.5
 }
@@ -54,7 +54,7 @@ fn in_room(item: &Item, direction: Direction, told: Told) -> bool {
         Direction::Left => part.across < 0.38,
         Direction::Right => part.across > 0.62,
         Direction::Side => part.at_wall,
-        Direction::Central | Direction::Between => (0.3..=0.7).contains(&part.depth),
+        _ => (0.3..=0.7).contains(&part.depth),
     }
 }
 
@@ -72,7 +72,7 @@ fn at_wall(item: &Item, direction: Direction, told: Told) -> bool {
             Direction::Back => ahead && away.x > 0.0,
             Direction::Left => !ahead && away.y > 0.0,
             Direction::Right => !ahead && away.y < 0.0,
-            Direction::Side | Direction::Central | Direction::Between => true,
+            _ => true,
         };
         is_it && gap(a, b) < AT_WALL_M
     })
@@ -88,7 +88,7 @@ fn by_door(item: &Item, direction: Direction, told: Told) -> bool {
         Direction::Front => at.y.abs() < at.x,
         // "Behind the door": beside it, at its wall.
         Direction::Back => near && at.x < 0.6,
-        Direction::Side | Direction::Central | Direction::Between => near,
+        _ => near,
     }
 }
 

@@ -1,6 +1,7 @@
 //! One stretch of a ray, on which the covariogram is a quadratic, and what a force makes of it.
 
 use super::super::Force;
+use super::super::quadrature::GAUSS;
 
 /// C(t) = q0 + q1·s + q2·s² with s = t − middle, |s| ≤ half.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,14 +11,6 @@ pub(super) struct Stretch {
     pub(super) q: [f64; 3],
 }
 
-/// Abscissae and weights of the ten-point Gauss–Legendre rule on (−1, 1), the positive half.
-const GAUSS: [(f64, f64); 5] = [
-    (0.148_874_338_981_631_2, 0.295_524_224_714_752_9),
-    (0.433_395_394_129_247_2, 0.269_266_719_309_996_35),
-    (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),
-    (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
-    (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
-];
 /// Up to this ratio of half to middle ten points are exact to rounding.
 const SMOOTH: f64 = 0.2;
 

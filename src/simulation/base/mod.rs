@@ -6,6 +6,7 @@
 
 mod ears;
 mod obstacles;
+mod orders;
 mod simulated_base;
 mod wheels;
 

@@ -1,0 +1,86 @@
+//! One reader of numbers: digits, decimals with a point or a comma, and words up to the hundreds.
+
+/// The value of a word that is a number by itself.
+pub fn value(word: &str) -> Option<f64> {
+    if word.as_bytes().first().is_some_and(u8::is_ascii_digit) {
+        let number = word.strip_suffix("th").or_else(|| word.strip_suffix('°')).unwrap_or(word);
+        return number.replace(',', ".").parse().ok().filter(|value: &f64| value.is_finite());
+    }
+    let small = [
+        "zero",
+        "one",
+        "two",
+        "three",
+        "four",
+        "five",
+        "six",
+        "seven",
+        "eight",
+        "nine",
+        "ten",
+        "eleven",
+        "twelve",
+        "thirteen",
+        "fourteen",
+        "fifteen",
+        "sixteen",
+        "seventeen",
+        "eighteen",
+        "nineteen",
+    ];
+    if let Some(at) = small.iter().position(|name| *name == word) {
+        return Some(at as f64);
+    }
+    let tens = [
+        ("twenty", 20.0),
+        ("thirty", 30.0),
+        ("forty", 40.0),
+        ("fourty", 40.0),
+        ("fifty", 50.0),
+        ("sixty", 60.0),
+        ("seventy", 70.0),
+        ("eighty", 80.0),
+        ("ninety", 90.0),
+        ("ninty", 90.0),
+        ("hundred", 100.0),
+    ];
+    let ten = |word: &str| tens.iter().find(|(name, _)| *name == word).map(|(_, value)| *value);
+    ten(word).or_else(|| {
+        let (high, low) = word.split_once('-')?;
+        let low = small.iter().position(|name| *name == low).filter(|low| (1..10).contains(low))?;
+        Some(ten(high)? + low as f64)
+    })
+}
+
+/// The value of number words said in a row: "forty five", "one hundred eighty".
+pub fn joined(before: f64, next: f64) -> Option<f64> {
+    let tens = before >= 20.0 && before < 100.0 && before % 10.0 == 0.0;
+    if next == 100.0 && (1.0..10.0).contains(&before) {
+        return Some(before * 100.0);
+    }
+    let hundreds = before >= 100.0 && before % 100.0 == 0.0;
+    ((tens && (1.0..10.0).contains(&next)) || (hundreds && next < 100.0)).then_some(before + next)
+}
+
+/// Words that stand for a number: "a", "a couple", "a few".
+pub fn loose(word: &str) -> Option<f64> {
+    match word {
+        "a" | "an" | "another" => Some(1.0),
+        "couple" => Some(2.0),
+        "few" | "some" | "several" => Some(3.0),
+        "half" => Some(0.5),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_decimals_and_words_are_one_reader() {
+        assert_eq!([value("45"), value("0,5"), value("1.5")], [Some(45.0), Some(0.5), Some(1.5)]);
+        assert_eq!([value("forty"), value("forty-five"), value("table")], [Some(40.0), Some(45.0), None]);
+        assert_eq!([joined(40.0, 5.0), joined(100.0, 80.0), joined(2.0, 3.0)], [Some(45.0), Some(180.0), None]);
+    }
+}
