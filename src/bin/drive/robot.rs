@@ -107,7 +107,7 @@ impl Arguments {
         self,
         home: &Home,
         reporter: &Reporter,
-        how: simulation::ArcosSettings,
+        how: simulation::TrialSettings,
         force: bool,
     ) -> Result<Exit, Failure> {
         let Some(address) = self.serve else { return Ok(Exit::Done) };
