@@ -25,6 +25,9 @@ impl FileError {
 }
 
 /// Says before work that takes long what [`write_file`] would say after it.
+///
+/// # Errors
+/// When the file exists and `force` is not set.
 pub fn refuse_existing(path: &Path, force: bool) -> Result<(), FileError> {
     if path.is_file() && !force { Err(FileError::Exists(path.display().to_string())) } else { Ok(()) }
 }
@@ -38,6 +41,9 @@ pub fn end_writing() {
 }
 
 /// Writes a file by a temporary one and a rename; refuses to overwrite without `force`.
+///
+/// # Errors
+/// When the file exists and `force` is not set, or it cannot be written.
 pub fn write_file(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
     let _writing = WRITING.read().unwrap_or_else(PoisonError::into_inner);
     let mut temporary = temporary_beside(path)?;
@@ -46,12 +52,18 @@ pub fn write_file(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileErro
 }
 
 /// A temporary file in the folder of `path`, where it can be renamed from.
+///
+/// # Errors
+/// When the folder cannot be written to.
 pub fn temporary_beside(path: &Path) -> Result<NamedTempFile, FileError> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     NamedTempFile::new_in(folder).map_err(|error| FileError::of(path, error))
 }
 
 /// Renames a temporary file onto `path`, with the permissions a new file would have.
+///
+/// # Errors
+/// When the file cannot be put there.
 pub fn persist(temporary: NamedTempFile, path: &Path, force: bool) -> Result<(), FileError> {
     widen_permissions(&temporary).map_err(|error| FileError::of(path, error))?;
     let renamed = if force { temporary.persist(path) } else { temporary.persist_noclobber(path) };

@@ -51,6 +51,9 @@ pub(super) struct Idle {
 
 impl Idle {
     /// Until `time_s` this was asked for, m/s and rad/s, and that reported.
+    ///
+    /// # Errors
+    /// When it is held fast: much was asked for, and little came of it.
     pub fn passed(&mut self, asked: (f64, f64), reported: (f64, f64), time_s: f64) -> Result<(), Halt> {
         if stands(asked) || !stands(reported) {
             self.since_s = None;

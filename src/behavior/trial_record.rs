@@ -16,6 +16,9 @@ pub struct Run {
 }
 
 /// The plan of a record, made for this home.
+///
+/// # Errors
+/// When there is no plan, it is none, or it was made for another map.
 pub fn plan_of(record: &Record, map: &RoomMap) -> Result<Plan, StageError> {
     let plan: Plan = record.require_part("pipe the record through `plan` first")?;
     if plan.map != map.name {
@@ -27,6 +30,9 @@ pub fn plan_of(record: &Record, map: &RoomMap) -> Result<Plan, StageError> {
 }
 
 /// A trial for people.
+///
+/// # Errors
+/// When there is no trial, or it is none.
 pub fn text_of(record: &Record) -> Result<String, StageError> {
     let trial: Trial = record.require_part("it is what `drive` adds")?;
     let mut lines: Vec<String> = record.get::<String>("text")?.into_iter().collect();

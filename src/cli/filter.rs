@@ -30,11 +30,18 @@ pub(super) struct Outcome {
 }
 
 /// Runs `stage` over all lines of the files, or of standard input.
+///
+/// # Errors
+/// When a file cannot be read, the output cannot be written, or a record cannot be processed and no one said to go on.
 pub fn run_filter(program: &'static str, common: &Common, intake: Intake, stage: &dyn Stage) -> Result<Exit, Failure> {
     run_filter_on(program, common, &mut Inputs::new(&common.files), intake, stage)
 }
 
 /// Runs `stage` over all lines of `lines`.
+///
+/// # Errors
+/// When the lines cannot be read, the output cannot be written, or a record cannot be processed and no one said to go
+/// on.
 pub fn run_filter_on(
     program: &'static str,
     common: &Common,
@@ -117,6 +124,9 @@ fn process(line: &Line, intake: Intake, format: Format, stage: &dyn Stage) -> Ou
 }
 
 /// The record on a line; none on a blank one.
+///
+/// # Errors
+/// When the line is no JSON object, with the column.
 pub fn record_of(line: &Line, intake: Intake) -> Result<Option<Record<'_>>, Diagnostic> {
     let text = std::str::from_utf8(&line.bytes).map_err(|error| {
         let message = "this byte is not UTF-8; convert the file, for example with iconv";

@@ -12,6 +12,9 @@ use super::{Failure, Line, Source};
 const BUFFER_BYTES: usize = 1 << 18;
 
 /// The text of a file.
+///
+/// # Errors
+/// When the file cannot be read or is not UTF-8.
 pub fn read_file(path: &Path) -> Result<String, Failure> {
     std::fs::read_to_string(path).map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))
 }

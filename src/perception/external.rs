@@ -38,6 +38,9 @@ pub struct ExternalError {
 
 impl ExternalDetector {
     /// Starts the command in a shell; what it says on standard error is seen.
+    ///
+    /// # Errors
+    /// When the command cannot be started.
     pub fn start(command: &str) -> Result<Self, ExternalError> {
         let (shell, flag) = if cfg!(windows) { ("cmd", "/C") } else { ("sh", "-c") };
         let failed = |what: String| ExternalError { command: command.to_string(), what };
@@ -49,6 +52,9 @@ impl ExternalDetector {
     }
 
     /// The command's detections in the frame that `record` names (one JSON object, without line breaks).
+    ///
+    /// # Errors
+    /// When the command ends, or answers what is no list of detections.
     pub fn detect(&self, record: &str) -> Result<Vec<Detection>, ExternalError> {
         let mut running = self.running.lock().unwrap_or_else(PoisonError::into_inner);
         running.ask(record).map_err(|what| ExternalError { command: self.command.clone(), what })

@@ -33,6 +33,9 @@ pub struct Perceiver {
 
 impl Perceiver {
     /// What a frame shows, from whatever source it comes; `name` is that of its drawing, `from` says how its pose is known.
+    ///
+    /// # Errors
+    /// When the frame cannot be judged, or its drawing not be written.
     pub fn look(&self, name: &str, frame: &RgbdFrame, from: PoseSource) -> Result<View, StageError> {
         check(frame).map_err(|error| StageError::new(error.to_string()))?;
         let view = match &self.external {
@@ -46,6 +49,9 @@ impl Perceiver {
     }
 
     /// Adds what a frame from a log shows to its record; `from` says how its pose is known.
+    ///
+    /// # Errors
+    /// As for looking.
     pub fn see(&self, frame: &RgbdFrame, from: PoseSource, record: &mut Record) -> Result<Note, StageError> {
         let name = record.get::<String>("frame")?.or_else(|| record.id());
         self.add(name.as_deref().unwrap_or("frame"), frame, from, record)
@@ -72,6 +78,9 @@ impl Perceiver {
     }
 
     /// The frame a record names.
+    ///
+    /// # Errors
+    /// When the record names no frame, or its files are wrong, with the key.
     pub fn frame_of(&self, record: &Record) -> Result<(String, RgbdFrame, PoseSource), StageError> {
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
         let files: FrameFiles = serde_json::from_str(&line).map_err(|error| {

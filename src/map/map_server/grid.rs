@@ -20,6 +20,10 @@ pub(super) struct Grid {
 }
 
 impl Grid {
+    /// Reads the image of a grid whose cells are `cell_m` metres wide.
+    ///
+    /// # Errors
+    /// When the image cannot be read or is none.
     pub fn read(path: &Path, cell_m: f64, origin: Vec2, thresholds: Thresholds) -> Result<Self, String> {
         let bytes = PICTURE_FILE_BYTES.read(path).map_err(|error| error.to_string())?;
         let Image { width, height, pixels } = Image::decode(&bytes)?;
