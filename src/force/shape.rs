@@ -24,6 +24,9 @@ impl Shape {
     }
 
     /// A shape from polygons as GeoJSON has them: for each part its closed outer ring, then closed rings of holes.
+    ///
+    /// # Errors
+    /// What is wrong with the first bad ring, by its number.
     pub fn from_parts(parts: &[Vec<Vec<[f64; 2]>>]) -> Result<Self, ShapeError> {
         let corners = parts.iter().flatten().map(Vec::len).sum();
         SHAPE_CORNERS.check(corners).map_err(ShapeError::TooMany)?;

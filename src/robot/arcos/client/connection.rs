@@ -78,6 +78,9 @@ pub struct Client<L: Line> {
 
 impl<L: Line> Client<L> {
     /// Finds the robot, and brings it to stand ready with its motors on.
+    ///
+    /// # Errors
+    /// When no robot answers, it reports nothing, or its scales are not known.
     pub fn connect(mut line: L, settings: ArcosSettings) -> Result<Self, ConnectError> {
         let mut decoder = Decoder::patient();
         let mut handshake = Handshake::new(&mut line, &mut decoder);
@@ -174,6 +177,9 @@ impl<L: Line> Client<L> {
     }
 
     /// One turn: takes in what came within `wait`, and sends what is due.
+    ///
+    /// # Errors
+    /// When the line fails, or the robot has been silent too long.
     pub fn turn(&mut self, wait: Duration) -> Result<(), RobotError> {
         if let Some(why) = &self.lost {
             return Err(RobotError::Link(why.clone()));
