@@ -3,7 +3,6 @@
 use std::f64::consts::{PI, TAU};
 
 use super::Furniture;
-use super::pilot::SWING_M;
 use super::route::{length, route};
 use crate::geometry::{ClearanceGrid, Pose, Vec2, angle_between, vec2, wrap_angle};
 
@@ -39,6 +38,8 @@ pub struct Ways<'g> {
     pub rooms: &'g ClearanceGrid,
     /// Where the robot is.
     pub from: Vec2,
+    /// What it needs round it to turn in place, metres.
+    pub to_turn: f64,
     /// What a way keeps clear where it is nowhere wider, metres.
     pub narrowest: f64,
 }
@@ -48,7 +49,7 @@ impl Ways<'_> {
     /// What was looked at before is looked at from other sides, where that can be done.
     pub fn viewpoints(&self, furniture: &Furniture) -> Vec<Pose> {
         // Outlines that are believed too large leave a gap too narrow that is wide enough.
-        let roomy = self.viewpoints_at(furniture, SWING_M);
+        let roomy = self.viewpoints_at(furniture, self.to_turn);
         if roomy.is_empty() { self.viewpoints_at(furniture, self.narrowest) } else { roomy }
     }
 
@@ -81,11 +82,11 @@ impl Ways<'_> {
         let around = (0..DIRECTIONS).map(|i| TAU * i as f64 / DIRECTIONS as f64);
         let mut places: Vec<(f64, Vec2)> = around
             .map(|angle| centre + vec2(angle.cos(), angle.sin()) * STUDY_M)
-            .filter(|&point| self.is_clear(point, SWING_M + 0.05) && self.sees(point, centre))
+            .filter(|&point| self.is_clear(point, self.to_turn + 0.05) && self.sees(point, centre))
             .map(|point| ((point - self.from).norm(), point))
             .collect();
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
-        self.cheapest(&places, SWING_M).map(|point| facing(point, centre))
+        self.cheapest(&places, self.to_turn).map(|point| facing(point, centre))
     }
 
     /// A pose from which an object at `point` is well seen: at the best distance, on the side where the robot is, as far
@@ -97,7 +98,7 @@ impl Ways<'_> {
             let free = |place: &Vec2| self.is_clear(*place, clear) && self.sees(*place, point);
             VIEWS_M.into_iter().find_map(|away| VIEW_TURNS.into_iter().map(place(away)).find(free))
         };
-        view(SWING_M).or_else(|| view(self.narrowest)).map(|place| facing(place, point))
+        view(self.to_turn).or_else(|| view(self.narrowest)).map(|place| facing(place, point))
     }
 
     fn is_clear(&self, point: Vec2, clear: f64) -> bool {

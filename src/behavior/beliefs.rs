@@ -6,7 +6,7 @@ use super::glimpses::Glimpses;
 use super::names::Names;
 use crate::frame::RgbdFrame;
 use crate::geometry::{Polygon, Vec2, vec2};
-use crate::perception::{ObjectSighting, View};
+use crate::perception::{ObjectSighting, View, furniture_chance};
 use crate::record::Detection;
 
 /// What is less likely furniture than this may confirm a piece, but is not believed to be one.
@@ -141,11 +141,6 @@ impl Beliefs {
             (0..self.furniture.len()).min_by(|&a, &b| near(&self.furniture[a]).total_cmp(&near(&self.furniture[b])))?;
         (near(&self.furniture[best]) < 0.5).then_some(best)
     }
-}
-
-/// How sure the eyes are that it is furniture at all: the category's chance among all over that among furniture.
-fn furniture_chance(detection: &Detection) -> f64 {
-    detection.scores.get(&detection.category).map_or(1.0, |score| detection.confidence / score.max(1e-9))
 }
 
 fn far_apart(a: &ObjectSighting, b: &ObjectSighting) -> bool {

@@ -1,32 +1,37 @@
 //! How the pilot turns and drives along a way.
 
+use super::foresight::trapezoid;
 use super::furniture::Furniture;
 use super::getting_clear::{End, GUARD_M};
-use super::pilot::{Halt, PLAIN_VIEW_M, Pilot, SWING_M, TICK_S};
+use super::pilot::{Halt, PLAIN_VIEW_M, Pilot, TICK_S};
+use super::progress::Progress;
 use super::route::{length, route};
 use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, distance_to_segment, wrap_angle};
 
 /// Ticks between two glimpses while driving.
 const TICKS_PER_GLIMPSE: usize = 6;
-/// Where there is room for it, a way keeps this clear, metres.
-const ROOMY_M: f64 = 0.52;
 /// What a detour for room may cost, a share of the way.
 const DETOUR: f64 = 1.25;
-/// Where there is no wider way, as through a door of 0.9 m, this must do, metres; and where there is none so wide, and
-/// the robot is bold, this: it has room to drive, and before a turn it makes room.
-pub const NARROW_M: f64 = 0.4;
-const BOLD_M: f64 = 0.36;
 /// What a route may shrink by before it is planned anew, metres.
 const SHRINKS_M: f64 = 0.01;
-/// Speeds and the braking they count on.
+/// Speeds and the braking they count on; a base that brakes less is counted on for a share of what it does.
 const SPEED_M_S: f64 = 0.5;
 const BOLD_M_S: f64 = 0.25;
+const CREEP_M_S: f64 = 0.05;
 const TURN_RAD_S: f64 = 1.2;
 const BRAKE_M_S2: f64 = 0.25;
 const TURN_BRAKE_RAD_S2: f64 = 0.8;
+const BRAKE_SHARE: f64 = 0.7;
 /// How near a driven-to point must be, metres, and a turned-to heading, radians.
 const NEAR_M: f64 = 0.06;
 const NEAR_RAD: f64 = 0.03;
+/// At rest so near to the heading it is not turned once more, radians.
+const SETTLED_RAD: f64 = 0.045;
+/// Slower than this a turn is over, rad/s.
+const TURNED_RAD_S: f64 = 0.05;
+/// Nearer to its goal by so much, a turn or a drive gets on, radians and metres.
+const TURNS_ON_RAD: f64 = 0.02;
+const DRIVES_ON_M: f64 = 0.05;
 /// Off the line by more than this, the robot stops and turns first, radians.
 const OFF_LINE_RAD: f64 = 0.35;
 /// This far past its outline a room has been entered, metres.
@@ -44,14 +49,20 @@ impl Pilot<'_> {
         self.come_to_rest()?;
         self.make_room()?;
         let mut rescues = 0;
+        let mut progress = Progress::new(TURNS_ON_RAD);
         loop {
-            let off = wrap_angle(heading - self.pose().heading);
-            let turning = self.base.velocity().1;
-            if off.abs() < NEAR_RAD && turning.abs() < 0.05 {
-                return self.come_to_rest();
+            let (there, (_, turning)) = self.ahead();
+            let off = wrap_angle(heading - there.heading);
+            if off.abs() < NEAR_RAD && turning.abs() < TURNED_RAD_S {
+                self.come_to_rest()?;
+                if wrap_angle(heading - self.pose().heading).abs() < SETTLED_RAD {
+                    return Ok(());
+                }
             }
-            let fastest = (2.0 * TURN_BRAKE_RAD_S2 * off.abs()).sqrt().min(TURN_RAD_S);
-            self.tick(0.0, off.signum() * fastest.min(off.abs() / TICK_S * 0.5))?;
+            if !progress.goes_on(off.abs(), self.base.time_s()) {
+                return Err(Halt::Stuck(format!("no rotation came about: {:.0}° are left", off.to_degrees())));
+            }
+            self.tick(0.0, self.turning_toward(off, turning))?;
             if self.is_held() {
                 rescues += 1;
                 if rescues > MOST_RESCUES {
@@ -60,6 +71,21 @@ impl Pilot<'_> {
                 self.back_off(self.freer_end())?;
             }
         }
+    }
+
+    /// The turning to ask for with `off` radians left, at `turning` rad/s.
+    fn turning_toward(&self, off: f64, turning: f64) -> f64 {
+        let speeding = self.body.turn_acceleration_rad_s2;
+        let braking = (BRAKE_SHARE * speeding).min(TURN_BRAKE_RAD_S2);
+        trapezoid(off, turning, TURN_RAD_S.min(self.body.turn_rad_s), (speeding, braking), TICK_S)
+    }
+
+    /// The speed to ask for with `left` metres left, at `speed` m/s.
+    fn speed_toward(&self, left: f64, speed: f64) -> f64 {
+        let fastest = if self.is_bold { BOLD_M_S } else { SPEED_M_S }.min(self.body.speed_m_s);
+        let braking = (BRAKE_SHARE * self.body.braking_m_s2).min(BRAKE_M_S2);
+        let speeding = self.body.acceleration_m_s2;
+        trapezoid(left.max(0.0), speed.max(0.0), fastest, (speeding, braking), TICK_S).max(CREEP_M_S)
     }
 
     /// Drives to a point, metres, round everything known.
@@ -141,7 +167,7 @@ impl Pilot<'_> {
     pub fn go_into(&mut self, outline: &Polygon, name: &str) -> Result<(), Halt> {
         let here = self.pose().position();
         let off = |point: &Vec2| (point - here).norm();
-        let inside = free_inside(&self.grid, outline).min_by(|a, b| off(a).total_cmp(&off(b)));
+        let inside = free_inside(&self.grid, outline, self.clearances.to_turn).min_by(|a, b| off(a).total_cmp(&off(b)));
         let Some(goal) = inside else { return Err(Halt::Blocked(format!("the {name} has no room for the robot"))) };
         self.because(format!("no door leads into the {name}; it is entered at ({:.1}, {:.1})", goal.x, goal.y));
         self.go_to(goal)?;
@@ -151,13 +177,13 @@ impl Pilot<'_> {
 
     /// What a way must keep clear where there is no wider one, metres.
     pub(super) fn narrowest(&self) -> f64 {
-        if self.is_bold { BOLD_M } else { NARROW_M }
+        if self.is_bold { self.clearances.bold } else { self.clearances.narrow }
     }
 
     /// The roomy way, unless it leads elsewhere or far about; when what the sonars met closes every way, without that.
     fn way_to(&mut self, goal: Vec2) -> Option<Vec<Vec2>> {
         let here = self.pose().position();
-        let widths = [SWING_M, self.narrowest()];
+        let widths = [self.clearances.to_turn, self.narrowest()];
         let to_goal = |grid: &ClearanceGrid| widths.into_iter().find_map(|clear| route(grid, here, goal, clear));
         let mut narrow = to_goal(&self.grid);
         if narrow.is_none() && !self.beliefs.bumps.is_empty() {
@@ -168,7 +194,7 @@ impl Pilot<'_> {
         }
         let narrow = narrow?;
         let (end, metres) = (narrow.last().copied().unwrap_or(here), length(here, &narrow));
-        let roomy = route(&self.grid, here, goal, ROOMY_M).filter(|way| {
+        let roomy = route(&self.grid, here, goal, self.clearances.roomy).filter(|way| {
             let near = way.last().is_some_and(|last| (last - end).norm() < NEAR_M);
             near && length(here, way) < DETOUR * metres
         });
@@ -190,21 +216,24 @@ impl Pilot<'_> {
 
     fn drive_line(&mut self, point: Vec2, rest: &[Vec2], is_last: bool) -> Result<bool, Halt> {
         let near = if is_last { NEAR_M } else { 2.0 * NEAR_M };
-        let mut ticks = 0;
-        while self.pose().distance_to(point) > near {
-            let off = self.pose().bearing_to(point);
-            if off.abs() > OFF_LINE_RAD {
-                let heading = wrap_angle(self.pose().heading + off);
-                self.turn_to(heading)?;
+        let (mut ticks, mut progress) = (0, Progress::new(DRIVES_ON_M));
+        while self.ahead().0.distance_to(point) > near {
+            if self.ahead().0.bearing_to(point).abs() > OFF_LINE_RAD {
+                self.come_to_rest()?;
+                let here = self.pose();
+                self.turn_to(wrap_angle(here.heading + here.bearing_to(point)))?;
+                progress.turned(self.base.time_s());
             }
             let free = self.free_ahead() - GUARD_M;
             if free <= 0.0 && self.something_is_ahead()? {
                 return self.met_something();
             }
-            let distance = self.pose().distance_to(point);
-            let fastest = (2.0 * BRAKE_M_S2 * distance.min(free.max(0.0)))
-                .sqrt()
-                .clamp(0.05, if self.is_bold { BOLD_M_S } else { SPEED_M_S });
+            let (there, (speed, _)) = self.ahead();
+            let (distance, off) = (there.distance_to(point), there.bearing_to(point));
+            if !progress.goes_on(distance, self.base.time_s()) {
+                return Err(Halt::Stuck(format!("it gets no nearer to ({:.1}, {:.1})", point.x, point.y)));
+            }
+            let fastest = self.speed_toward(distance.min(free), speed);
             self.tick(fastest * off.cos().max(0.0), (1.5 * off).clamp(-TURN_RAD_S, TURN_RAD_S))?;
             if self.is_held() {
                 self.touched()?;
@@ -232,11 +261,11 @@ impl Pilot<'_> {
 }
 
 /// The places well inside an outline where the robot can turn.
-fn free_inside<'a>(grid: &'a ClearanceGrid, outline: &'a Polygon) -> impl Iterator<Item = Vec2> + 'a {
+fn free_inside<'a>(grid: &'a ClearanceGrid, outline: &'a Polygon, to_turn: f64) -> impl Iterator<Item = Vec2> + 'a {
     let (low, high) = outline.bounds();
     let (from, to) = (grid.cell(low), grid.cell(high));
     let cells = (from.0..=to.0).flat_map(move |x| (from.1..=to.1).map(move |y| (x, y)));
-    cells.filter(|&cell| grid.clearance(cell) >= SWING_M).map(|cell| grid.centre(cell)).filter(|&point| {
+    cells.filter(move |&cell| grid.clearance(cell) >= to_turn).map(|cell| grid.centre(cell)).filter(|&point| {
         outline.contains(point) && outline.edges().all(|(a, b)| distance_to_segment(point, a, b) >= WELL_INSIDE_M)
     })
 }

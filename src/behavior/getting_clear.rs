@@ -1,8 +1,9 @@
 //! Getting clear: what the sonars hear close by, what was met or touched, and room for a turn.
 
 use super::pilot::{Halt, Pilot, TICK_S};
+use super::progress::PATIENCE_S;
 use crate::geometry::{Vec2, vec2};
-use crate::robot::{SonarReading, p3dx};
+use crate::robot::SonarReading;
 
 /// The sonar's last word: nothing ahead nearer than this, metres from the sonar.
 pub(super) const GUARD_M: f64 = 0.16;
@@ -10,8 +11,6 @@ pub(super) const GUARD_M: f64 = 0.16;
 const GUARD_RAD: f64 = 0.7;
 /// A sonar's range is this old at most, seconds: eight fire one after another.
 const SONAR_AGE_S: f64 = 0.32;
-/// A turn in place needs this much round the wheels' middle, metres.
-const TURNING_M: f64 = p3dx::SWING_M + 0.03;
 /// How fast it moves where it sees nothing, metres a second.
 const CREEP_M_S: f64 = 0.1;
 /// How far the robot backs off from what it touched, metres.
@@ -29,9 +28,12 @@ pub(super) enum End {
 }
 
 impl Pilot<'_> {
-    /// Metres from the front sonars to what they hear, less what the robot has gone since they fired.
+    /// Metres from the front sonars to what they hear, less what the robot has gone since they fired, and will have
+    /// gone when the next command reaches it.
     pub(super) fn free_ahead(&self) -> f64 {
-        self.nearest(|bearing| bearing <= GUARD_RAD) - self.base.velocity().0.max(0.0) * SONAR_AGE_S
+        let (there, (speed, _)) = self.ahead();
+        let gone = self.pose().to_local(there.position()).x.max(0.0);
+        self.nearest(|bearing| bearing <= GUARD_RAD) - speed.max(0.0) * SONAR_AGE_S - gone
     }
 
     /// Metres from the sonars at one end to what they hear.
@@ -49,7 +51,8 @@ impl Pilot<'_> {
 
     /// What the sonars hear nearer than a turn in place allows, in the robot's frame, metres.
     pub(super) fn heard_within_swing(&self) -> impl Iterator<Item = Vec2> {
-        self.base.sonar().iter().map(SonarReading::echo).filter(|point| point.norm() < TURNING_M)
+        let heard = self.clearances.heard;
+        self.base.sonar().iter().map(SonarReading::echo).filter(move |point| point.norm() < heard)
     }
 
     fn creep(&mut self, toward: End) -> Result<(), Halt> {
@@ -89,7 +92,7 @@ impl Pilot<'_> {
 
     /// Something neither eyes nor sonars had reported stopped the robot: back off, remember it, plan anew.
     pub(super) fn touched(&mut self) -> Result<(), Halt> {
-        let point = self.pose().to_world(vec2(p3dx::FRONT_M + 0.05, 0.0));
+        let point = self.pose().to_world(vec2(self.body.front_m + 0.05, 0.0));
         self.because(format!("touched something at ({:.1}, {:.1}); backing off", point.x, point.y));
         self.beliefs.bumps.push(point);
         self.back_off(End::Rear)?;
@@ -119,7 +122,7 @@ impl Pilot<'_> {
             heard.extend(self.heard_within_swing().map(|point| here.to_world(point)));
             let points = heard.iter().map(|&point| here.to_local(point));
             let Some(nearest) = points.min_by(|a, b| a.norm().total_cmp(&b.norm())) else { break };
-            let lacks = TURNING_M - nearest.norm();
+            let lacks = self.clearances.heard - nearest.norm();
             let is_abreast = nearest.x.abs() < ABREAST_M;
             let away = if nearest.x < 0.0 { End::Front } else { End::Rear };
             let toward = if is_abreast { *past.get_or_insert(self.freer_end()) } else { away };
@@ -132,12 +135,13 @@ impl Pilot<'_> {
     }
 
     pub(super) fn come_to_rest(&mut self) -> Result<(), Halt> {
-        loop {
-            let (linear, angular) = self.base.velocity();
-            if linear.abs() < 0.01 && angular.abs() < 0.02 {
-                return Ok(());
-            }
+        let began_s = self.base.time_s();
+        while !self.foresight.is_at_rest(self.base.velocity()) {
             self.tick(0.0, 0.0)?;
+            if self.base.time_s() - began_s > PATIENCE_S {
+                return Err(Halt::Stuck(format!("it does not come to rest within {PATIENCE_S} s")));
+            }
         }
+        Ok(())
     }
 }

@@ -10,7 +10,7 @@ use nalgebra::{Matrix4, Vector4};
 use crate::geometry::{Polygon, Pose, Vec2, vec2, wrap_angle};
 use crate::map::RoomMap;
 use crate::robot::sonar::{self, Echo, Segment};
-use crate::robot::{MobileBase, SonarReading, p3dx};
+use crate::robot::{MobileBase, SonarReading};
 
 /// Deviations at the start: position (m), heading and compass error (rad).
 const START_M: f64 = 0.1;
@@ -47,6 +47,7 @@ const MOST_DOUBT_M: f64 = 0.25;
 #[derive(Clone, Debug)]
 pub struct Localizer {
     walls: Vec<Segment>,
+    sonar_range_m: f64,
     /// x, y, heading, compass error.
     state: Vector4<f64>,
     covariance: Matrix4<f64>,
@@ -63,6 +64,7 @@ impl Localizer {
         let deviations = Vector4::new(START_M, START_M, START_RAD, COMPASS_BIAS_RAD);
         Self {
             walls: map.walls(),
+            sonar_range_m: base.body().sonar_range_m,
             state: Vector4::new(pose.x, pose.y, pose.heading, 0.0),
             covariance: Matrix4::from_diagonal(&deviations.component_mul(&deviations)),
             odometry: pose,
@@ -131,7 +133,7 @@ impl Localizer {
         let origin = pose.to_world(reading.mount);
         let heading = pose.heading + reading.bearing;
         let axis = vec2(heading.cos(), heading.sin());
-        let Some(expected) = sonar::echo(&self.walls, origin, axis, p3dx::SONAR_RANGE_M) else { return };
+        let Some(expected) = sonar::echo(&self.walls, origin, axis, self.sonar_range_m) else { return };
         if !expected.steady || furniture.iter().any(|outline| may_be(outline, origin, axis, &expected)) {
             return;
         }

@@ -2,13 +2,14 @@
 
 use std::f64::consts::PI;
 
+use super::foresight::Foresight;
 use super::localizer::Localizer;
-use super::{Beliefs, Journal, Watcher, Ways};
+use super::progress::Idle;
+use super::{Beliefs, Clearances, Journal, Watcher, Ways};
 use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, segments_touch, wrap_angle};
 use crate::map::RoomMap;
 use crate::perception::{Eyes, View};
-use crate::robot::{MobileBase, RobotError};
-pub use crate::simulation::arrange::access::SWING_M;
+use crate::robot::{Body, MobileBase, RobotError};
 
 /// Control period, seconds.
 pub(super) const TICK_S: f64 = 0.1;
@@ -21,11 +22,16 @@ pub(super) const PLAIN_VIEW_M: std::ops::Range<f64> = 1.3..4.0;
 const PLAIN_VIEW_RAD: f64 = 0.4;
 /// A line of sight passes walls by this, metres: a cell's middle lies half a cell off them at most.
 const SIGHT_M: f64 = 0.08;
+
+/// A dead time that changes by more than this is told, seconds.
+const TELLING_S: f64 = 0.03;
 /// Why the executive had to end early.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Halt {
     /// No safe way; says to where.
     Blocked(String),
+    /// What is asked for does not come about; says what.
+    Stuck(String),
     /// The time allowed is used up.
     Timeout,
     /// Someone asked to stop.
@@ -50,6 +56,10 @@ pub struct Pilot<'a> {
     pub(super) base: &'a mut dyn MobileBase,
     eyes: &'a mut dyn Eyes,
     watcher: &'a mut dyn Watcher,
+    pub(super) body: Body,
+    pub(super) clearances: Clearances,
+    pub(super) foresight: Foresight,
+    idle: Idle,
     localizer: Localizer,
     rooms_only: ClearanceGrid,
     pub(super) grid: ClearanceGrid,
@@ -75,6 +85,8 @@ impl<'a> Pilot<'a> {
         time_limit_s: f64,
         odometry_only: bool,
     ) -> Self {
+        let body = base.body();
+        let foresight = Foresight::new(body, base.time_s(), base.dead_time_s());
         let localizer = Localizer::new(map, base, odometry_only);
         let rooms_only = grid_of(map);
         let grid = rooms_only.clone();
@@ -83,6 +95,10 @@ impl<'a> Pilot<'a> {
             base,
             eyes,
             watcher,
+            body,
+            clearances: Clearances::of(&body),
+            foresight,
+            idle: Idle::default(),
             localizer,
             rooms_only,
             grid,
@@ -100,6 +116,11 @@ impl<'a> Pilot<'a> {
         self.localizer.pose()
     }
 
+    /// Where the robot will be, and how fast (m/s, rad/s), when the next command reaches it.
+    pub(super) fn ahead(&self) -> (Pose, (f64, f64)) {
+        self.foresight.ahead(self.pose(), self.base.velocity())
+    }
+
     /// Whether the robot has a camera.
     pub fn can_see(&self) -> bool {
         self.eyes.can_see()
@@ -113,7 +134,8 @@ impl<'a> Pilot<'a> {
     /// Where the robot is and can go.
     pub fn ways(&self) -> Ways<'_> {
         let (grid, rooms) = (&self.grid, &self.rooms_only);
-        Ways { grid, rooms, from: self.pose().position(), narrowest: self.narrowest() }
+        let to_turn = self.clearances.to_turn;
+        Ways { grid, rooms, from: self.pose().position(), to_turn, narrowest: self.narrowest() }
     }
 
     /// What the last look showed.
@@ -124,7 +146,15 @@ impl<'a> Pilot<'a> {
     /// Notes a reason for the present action.
     pub fn because(&mut self, reason: impl Into<String>) {
         let reason = reason.into();
-        self.watcher.said(self.base.time_s(), &reason);
+        let plain = reason.clone();
+        self.because_plainly(reason, &plain);
+    }
+
+    /// The same, with plain words for those who look on and do not ask for figures.
+    pub fn because_plainly(&mut self, reason: String, plain: &str) {
+        let time_s = self.base.time_s();
+        self.watcher.said(time_s, &reason);
+        self.watcher.told(time_s, plain);
         self.journal.because(reason);
     }
 
@@ -137,6 +167,7 @@ impl<'a> Pilot<'a> {
     /// The present action is over.
     pub fn end(&mut self, result: &str) {
         self.watcher.said(self.base.time_s(), result);
+        self.watcher.told(self.base.time_s(), result);
         self.journal.end(result, self.base.time_s());
     }
 
@@ -220,6 +251,12 @@ impl<'a> Pilot<'a> {
     /// Lets one control period pass at these velocities (m/s, rad/s).
     pub(super) fn tick(&mut self, linear: f64, angular: f64) -> Result<(), Halt> {
         self.base.drive(linear, angular, TICK_S)?;
+        let dead_time_s = self.foresight.dead_time_s();
+        self.foresight.passed((linear, angular), self.base.time_s(), self.base.age_s(), self.base.velocity());
+        let found_s = self.foresight.dead_time_s();
+        if (found_s - dead_time_s).abs() > TELLING_S {
+            self.watcher.said(self.base.time_s(), &format!("the base answers after {:.0} ms", found_s * 1000.0));
+        }
         self.localizer.update(self.base, &self.outlines);
         let (time_s, pose) = (self.base.time_s(), self.pose());
         self.journal.passed(time_s, pose);
@@ -227,6 +264,7 @@ impl<'a> Pilot<'a> {
         if self.watcher.wants_stop() {
             return Err(Halt::Stopped);
         }
+        self.idle.passed((linear, angular), self.base.velocity(), time_s).map_err(Halt::Stuck)?;
         if time_s > self.time_limit_s { Err(Halt::Timeout) } else { Ok(()) }
     }
 }

@@ -5,18 +5,18 @@ use std::fs::File;
 use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 
-use super::filter::{Outcome, finish, run_source};
-use super::log_input::{Bytes, open_log};
+use super::filter::{Outcome, finish, refuse_rows, run_source};
+use super::log_input::Bytes;
 use super::{Common, Diagnostic, Exit, Failure, FromLog, Inputs, Line, Source};
-use crate::frame::RgbdFrame;
+use crate::perception::Told;
 use crate::record::{Note, Record, Stage, StageError};
-use crate::recording::{FrameOptions, FrameReader, TimedFrame};
+use crate::recording::{FrameOptions, FrameReader, LogError, Parts, TimedFrame, recordings};
 
 /// Pictures are large: only as many at a time as keep the cores busy.
 const BATCH_FRAMES: usize = 8;
 
 /// What a seeing stage adds to the record of one frame.
-pub type See<'a> = dyn Fn(&RgbdFrame, &mut Record) -> Result<Note, StageError> + Sync + 'a;
+pub type See<'a> = dyn Fn(&TimedFrame, &mut Record) -> Result<Note, StageError> + Sync + 'a;
 
 /// What there is to read: records that name frames, or logs that hold them.
 pub enum FrameInput {
@@ -28,16 +28,23 @@ pub enum FrameInput {
 
 impl FrameInput {
     /// Looks at the first bytes: an MCAP log is read as one, wherever it comes from.
-    pub fn open(files: &[PathBuf], options: &FromLog) -> Result<Self, Failure> {
-        let logs = |paths: Vec<PathBuf>| FrameLogs::new(paths, options.clone());
+    /// `told` is what is known of the camera of frames whose log does not tell where it was; a log that cannot be read
+    /// is told and passed over when it shall `keep_going`.
+    ///
+    /// # Errors
+    /// When standard input begins as a log and goes on as none.
+    pub fn open(files: &[PathBuf], options: &FromLog, told: Told, keep_going: bool) -> Result<Self, Failure> {
+        let logs = |paths: Vec<PathBuf>| FrameLogs { keep_going, ..FrameLogs::new(paths, options.clone(), told) };
         match (&options.from, files) {
             (Some(path), _) => Ok(Self::Logs(Box::new(logs(vec![path.clone()])))),
             (None, [first, ..]) if first != Path::new("-") => {
-                let is_log = File::open(first).is_ok_and(|file| is_regular(&file) && begins_as_log(file).0);
-                if is_log {
+                let is_log =
+                    |path: &PathBuf| File::open(path).is_ok_and(|file| is_regular(&file) && begins_as_log(file).0);
+                // One that is missing does not say what the others are.
+                if is_log(first) || keep_going && !first.exists() && files.iter().any(is_log) {
                     Ok(Self::Logs(Box::new(logs(files.to_vec()))))
                 } else {
-                    Ok(Self::Lines(Inputs::new(files)))
+                    Ok(Self::Lines(Inputs::new(files, keep_going)))
                 }
             }
             _ => {
@@ -47,7 +54,7 @@ impl FrameInput {
                     return Ok(Self::Lines(Inputs::of("<stdin>", stdin)));
                 }
                 let mut logs = logs(Vec::new());
-                logs.begin(stdin, "<stdin>".to_string(), true)?;
+                logs.begin_stream(stdin)?;
                 Ok(Self::Logs(Box::new(logs)))
             }
         }
@@ -68,16 +75,18 @@ fn begins_as_log(mut source: impl Read) -> (bool, Vec<u8>) {
 
 /// The frames of one log after another.
 pub struct FrameLogs {
-    waiting: VecDeque<PathBuf>,
+    waiting: VecDeque<Vec<PathBuf>>,
     options: FromLog,
+    told: Told,
+    /// Whether a log that cannot be read is told and passed over.
+    keep_going: bool,
     current: Option<Current>,
     count: usize,
     lost: Vec<Diagnostic>,
 }
 
 struct Current {
-    frames: FrameReader<Bytes>,
-    name: String,
+    frames: FrameReader<Parts>,
     is_pipe: bool,
 }
 
@@ -107,38 +116,74 @@ impl FrameItem {
 }
 
 impl FrameLogs {
-    fn new(paths: Vec<PathBuf>, options: FromLog) -> Self {
-        Self { waiting: paths.into(), options, current: None, count: 0, lost: Vec::new() }
+    fn new(paths: Vec<PathBuf>, options: FromLog, told: Told) -> Self {
+        let waiting = recordings(paths).into();
+        Self { waiting, options, told, keep_going: false, current: None, count: 0, lost: Vec::new() }
     }
 
-    fn begin(&mut self, bytes: Bytes, name: String, is_pipe: bool) -> Result<(), Failure> {
+    fn begin_stream(&mut self, bytes: Bytes) -> Result<(), Failure> {
+        self.begin(Parts::stream(bytes, "<stdin>", self.options.recover).map_err(failed)?, true);
+        Ok(())
+    }
+
+    fn begin(&mut self, parts: Parts, is_pipe: bool) {
         let (topics, window, recover) = (self.options.topic.clone(), self.options.window(), self.options.recover);
-        let frames = FrameReader::new(bytes, &name, FrameOptions { topics, window, recover });
-        let frames = frames.map_err(|error| Failure::Failed(error.to_string()))?;
-        self.current = Some(Current { frames, name, is_pipe });
+        let frames = FrameReader::of(parts, FrameOptions { topics, window, recover, told: self.told });
+        self.current = Some(Current { frames, is_pipe });
+    }
+
+    /// Begins the next recording; false when there is none.
+    fn begin_next(&mut self) -> Result<bool, Failure> {
+        let Some(paths) = self.waiting.pop_front() else { return Ok(false) };
+        match (self.open_next(&paths), paths.first()) {
+            (Err(Failure::Failed(what)), Some(path)) if self.keep_going => {
+                let place = path.display().to_string();
+                let what = what.strip_prefix(&format!("{place}: ")).unwrap_or(&what);
+                let message = format!("{what}; its frames are left out");
+                self.lost.push(Diagnostic { place, id: None, message });
+            }
+            (begun, _) => begun?,
+        }
+        Ok(true)
+    }
+
+    fn open_next(&mut self, paths: &[PathBuf]) -> Result<(), Failure> {
+        match paths {
+            [path] if path == Path::new("-") => self.begin_stream(Box::new(io::stdin()))?,
+            _ => {
+                let is_pipe = paths.iter().any(|path| !path.metadata().is_ok_and(|found| found.is_file()));
+                self.begin(Parts::files(paths.to_vec(), self.options.recover).map_err(failed)?, is_pipe);
+            }
+        }
         Ok(())
     }
 
     fn next_frame(&mut self) -> Result<Option<FrameItem>, Failure> {
         loop {
             let Some(current) = &mut self.current else {
-                let Some(path) = self.waiting.pop_front() else { return Ok(None) };
-                let (bytes, name, is_pipe) = open_log(&path)?;
-                self.begin(bytes, name, is_pipe)?;
-                continue;
+                if self.begin_next()? {
+                    continue;
+                }
+                return Ok(None);
             };
             match current.frames.next() {
                 None => self.current = None,
                 Some(Err(loss)) => {
-                    self.lost.push(Diagnostic { place: current.name.clone(), id: None, message: loss.to_string() });
+                    let place = current.frames.messages().part().to_string();
+                    self.lost.push(Diagnostic { place, id: None, message: loss.to_string() });
                 }
                 Some(Ok(timed)) => {
                     self.count += 1;
-                    return Ok(Some(FrameItem { file: current.name.clone(), ordinal: self.count, timed }));
+                    let file = current.frames.messages().name().to_string();
+                    return Ok(Some(FrameItem { file, ordinal: self.count, timed }));
                 }
             }
         }
     }
+}
+
+fn failed(error: LogError) -> Failure {
+    Failure::Failed(error.to_string())
 }
 
 impl Source<FrameItem> for FrameLogs {
@@ -169,6 +214,8 @@ pub fn run_frames(
     stage: &dyn Stage,
     see: &See,
 ) -> Result<Exit, Failure> {
+    refuse_rows(program, common, stage)?;
+    let style = common.style();
     run_source(program, common, logs, &|item: &FrameItem| {
         let mut record = Record::default();
         record.set("id", &item.ordinal.to_string());
@@ -177,7 +224,7 @@ pub fn run_frames(
         record.set("log_ns", &item.timed.log_ns);
         record.set("robot_pose", &item.timed.robot);
         let mut outcome = Outcome::default();
-        finish(&item.line(), record, common.format, stage, &|record| see(&item.timed.frame, record), &mut outcome);
+        finish(&item.line(), record, style, stage, &|record| see(&item.timed, record), &mut outcome);
         outcome
     })
 }

@@ -15,8 +15,6 @@ pub struct Gold {
     pub text: String,
     /// Labelled brackets over its words; empty when it has no tree.
     pub brackets: BTreeSet<Bracket>,
-    /// Whether it says what the description means.
-    pub has_grounding: bool,
     /// The side that picks the room.
     pub side: Option<Direction>,
     /// The room's name.
@@ -70,6 +68,11 @@ pub struct GoldError {
 }
 
 impl Gold {
+    /// Whether it says what the description means, as a whole or chunk by chunk.
+    pub fn is_labelled(&self) -> bool {
+        self.grounding.is_some() || !self.labels.is_empty()
+    }
+
     /// "where" when the description begins with the object, else "how".
     pub fn form(&self) -> &'static str {
         let first = self.brackets.iter().map(|(_, first, _)| *first).min();

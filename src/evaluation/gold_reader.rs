@@ -72,7 +72,6 @@ fn from_own(entry: OwnEntry) -> Result<Gold, String> {
         brackets: brackets_of(&entry.text, &chunks),
         id: entry.id,
         text: entry.text,
-        has_grounding: true,
         side: room.side,
         room: room.name,
         object: object.map(|object| object.name),

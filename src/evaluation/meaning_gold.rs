@@ -52,7 +52,6 @@ impl MeaningEntry {
         Gold {
             id: self.id,
             text: self.text,
-            has_grounding: true,
             side: room.side,
             room: room.name,
             object: self.object,

@@ -59,7 +59,6 @@ impl TokenEntry {
             grounding,
             labels: self.groundings.iter().map(label_of).collect(),
             tokens,
-            has_grounding: !self.groundings.is_empty(),
             side,
             object: last(|g| g.object.as_ref()).map(|object| object.replace(' ', "_")),
             has_target: target.is_some(),

@@ -11,7 +11,7 @@ use crate::frame::{inverse, placed};
 use crate::geometry::{Pose, wrap_angle};
 use crate::perception::check;
 use crate::recording::{Follow, FrameOptions, FrameReader, TimedFrame};
-use crate::robot::arcos::client::Stopper;
+use crate::robot::Remote;
 
 /// Two poses nearer than this are the same place.
 const SAME_PLACE_M: f64 = 0.03;
@@ -22,25 +22,6 @@ pub type Tell = Arc<dyn Fn(&str) + Send + Sync>;
 
 /// Takes a frame, or none; says whether more are wanted.
 pub(super) type Take<'a> = dyn FnMut(Option<TimedFrame>) -> bool + 'a;
-
-/// What carries the camera.
-pub trait Carrier: Send + Sync {
-    /// Where its odometry believes it is, in the frame of the map.
-    fn pose(&self) -> Pose;
-
-    /// Whether it was told to stop for good.
-    fn is_stopping(&self) -> bool;
-}
-
-impl Carrier for Stopper {
-    fn pose(&self) -> Pose {
-        Self::pose(self)
-    }
-
-    fn is_stopping(&self) -> bool {
-        Self::is_stopping(self)
-    }
-}
 
 /// A frame whose camera is known from its robot.
 #[derive(Clone)]
@@ -88,7 +69,7 @@ impl FrameStream {
     ///
     /// It hands over frames, or none to ask whether more are wanted, and shall end when they are not.
     pub fn start(
-        carrier: Arc<dyn Carrier>,
+        carrier: Arc<dyn Remote>,
         tell: Tell,
         frames: impl FnOnce(&mut Take) -> Result<(), String> + Send + 'static,
     ) -> io::Result<Arc<Self>> {
@@ -114,7 +95,7 @@ impl FrameStream {
     }
 
     /// Reads frames from `path`: a file that may still be growing, a FIFO, or `-` for standard input.
-    pub fn open(path: &Path, carrier: Arc<dyn Carrier>, tell: Tell) -> io::Result<Arc<Self>> {
+    pub fn open(path: &Path, carrier: Arc<dyn Remote>, tell: Tell) -> io::Result<Arc<Self>> {
         let path = path.to_path_buf();
         // A FIFO opens only when its writer comes: not before the thread is there.
         Self::start(carrier, tell, move |take| read(&path, take))

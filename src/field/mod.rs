@@ -10,5 +10,5 @@ mod kinect;
 mod stream_eyes;
 
 pub use driver::{Interrupter, RealDriver};
-pub use frame_stream::{Carrier, Tell};
+pub use frame_stream::Tell;
 pub use stream_eyes::{NoEyes, StreamEyes};

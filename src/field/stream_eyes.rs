@@ -9,12 +9,13 @@ use std::path::Path;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::frame_stream::{Carrier, FrameStream, Taken, Tell};
+use super::frame_stream::{FrameStream, Taken, Tell};
 use crate::frame::RgbdFrame;
 use crate::frame::placed;
 use crate::geometry::{Pose, wrap_angle};
 use crate::map::RoomMap;
 use crate::perception::{Detector, Eyes, View};
+use crate::robot::Remote;
 
 /// A robot that stands waits so long for a picture taken where it stands.
 const FRESH_WITHIN: Duration = Duration::from_millis(1500);
@@ -50,7 +51,7 @@ pub struct StreamEyes {
     stream: Arc<FrameStream>,
     watch: Arc<Watch>,
     detect: Detect,
-    carrier: Arc<dyn Carrier>,
+    carrier: Arc<dyn Remote>,
     seen_first: bool,
     last: Option<RgbdFrame>,
 }
@@ -87,14 +88,14 @@ impl Watch {
 
 impl StreamEyes {
     /// Eyes that read frames from `path`: a file that may still be growing, a FIFO, or `-` for standard input.
-    pub fn open(path: &Path, map: RoomMap, carrier: Arc<dyn Carrier>, tell: Tell) -> io::Result<Self> {
+    pub fn open(path: &Path, map: RoomMap, carrier: Arc<dyn Remote>, tell: Tell) -> io::Result<Self> {
         let stream = FrameStream::open(path, Arc::clone(&carrier), tell)?;
         Self::new(stream, shipped_detector(map), carrier)
     }
 
     /// Eyes behind the Kinect that is plugged into this machine, on the usual tower.
     #[cfg(feature = "kinect")]
-    pub fn kinect(map: RoomMap, carrier: Arc<dyn Carrier>, tell: Tell) -> io::Result<Self> {
+    pub fn kinect(map: RoomMap, carrier: Arc<dyn Remote>, tell: Tell) -> io::Result<Self> {
         let stream = FrameStream::start(Arc::clone(&carrier), tell, super::kinect::stream)?;
         Self::new(stream, shipped_detector(map), carrier)
     }
@@ -105,7 +106,7 @@ impl StreamEyes {
         move || stream.close()
     }
 
-    pub(super) fn new(stream: Arc<FrameStream>, detect: Detect, carrier: Arc<dyn Carrier>) -> io::Result<Self> {
+    pub(super) fn new(stream: Arc<FrameStream>, detect: Detect, carrier: Arc<dyn Remote>) -> io::Result<Self> {
         let watch = Arc::new(Watch::default());
         let (frames, theirs, sees) = (Arc::clone(&stream), Arc::clone(&watch), Arc::clone(&detect));
         std::thread::Builder::new().name("eyes".to_string()).spawn(move || keep_watch(&frames, &theirs, &sees))?;
@@ -224,7 +225,17 @@ mod tests {
         }
     }
 
-    impl Carrier for Put {
+    impl Remote for Put {
+        fn stop(&self) {}
+
+        fn is_moving(&self) -> bool {
+            false
+        }
+
+        fn take_events(&self) -> Vec<crate::robot::Event> {
+            Vec::new()
+        }
+
         fn pose(&self) -> Pose {
             *self.0.lock().expect("whole")
         }
@@ -260,7 +271,7 @@ mod tests {
 
     fn eyes(carrier: &Arc<Put>, detect: Detect) -> (StreamEyes, Sender<TimedFrame>) {
         let (frames, coming) = channel();
-        let carrier: Arc<dyn Carrier> = carrier.clone();
+        let carrier: Arc<dyn Remote> = carrier.clone();
         let stream = FrameStream::start(Arc::clone(&carrier), Arc::new(|_| {}), move |take| {
             while coming.recv().is_ok_and(|frame| take(Some(frame))) {}
             Ok(())
@@ -367,7 +378,7 @@ mod tests {
         let told = Arc::new(Mutex::new(Vec::new()));
         let hears = Arc::clone(&told);
         let tell: Tell = Arc::new(move |text: &str| hears.lock().expect("whole").push(text.to_string()));
-        let carrier: Arc<dyn Carrier> = Arc::new(Put::default());
+        let carrier: Arc<dyn Remote> = Arc::new(Put::default());
         let stream = FrameStream::open(Path::new("no/such/file"), Arc::clone(&carrier), tell).expect("a thread");
         let mut eyes = StreamEyes::new(stream, Arc::new(place_of_camera), carrier).expect("a thread");
         assert_eq!(seen_at(&eyes.look(Pose::default())), None);

@@ -5,6 +5,8 @@
 //! G(a2−b1) − G(a2−b2) − G(a1−b1) + G(a1−b2), G being zero for negative
 //! arguments. That one formula covers every configuration, overlaps included.
 
+use super::quadrature::GAUSS;
+
 /// The force by which points attract: distance to the power −r, or the hybrid of r = 0 near and r = 2 far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Force {
@@ -23,15 +25,6 @@ pub struct Infinite;
 const SERIES_TERMS: u32 = 18;
 /// Below this ratio of the gaps' difference to the gap, the mean is taken by quadrature.
 const SMOOTH: f64 = 0.25;
-
-/// Abscissae and weights of the ten-point Gauss–Legendre rule on (−1, 1), the positive half.
-const GAUSS: [(f64, f64); 5] = [
-    (0.148_874_338_981_631_2, 0.295_524_224_714_752_9),
-    (0.433_395_394_129_247_2, 0.269_266_719_309_996_35),
-    (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),
-    (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
-    (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
-];
 
 /// G, made small where only its curvature matters.
 #[derive(Clone, Copy, Debug)]

@@ -1,31 +1,29 @@
 //! Masks in PNG files: bright is inside.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::io::Cursor;
 use std::path::Path;
 
 use png::{ColorType, Transformations};
 
-use super::raster::{MOST_CELLS, Raster};
+use super::raster::Raster;
+use crate::limits::{PICTURE_FILE_BYTES, PICTURE_PIXELS};
 
 /// Reads a mask; the message of an error names the file.
 pub(super) fn read_mask(path: &Path, cell: f64) -> Result<Raster, String> {
     let named = |message: String| format!("{}: {message}", path.display());
-    let file = File::open(path).map_err(|error| named(error.to_string()))?;
-    let (width, height, levels) = decode(BufReader::new(file)).map_err(named)?;
+    let bytes = PICTURE_FILE_BYTES.read(path).map_err(|error| named(error.to_string()))?;
+    let (width, height, levels) = decode(&bytes).map_err(named)?;
     Raster::from_levels(width, height, levels, 255, cell).map_err(|error| named(error.to_string()))
 }
 
-fn decode(file: BufReader<File>) -> Result<(usize, usize, Vec<u8>), String> {
-    let mut decoder = png::Decoder::new(file);
+fn decode(bytes: &[u8]) -> Result<(usize, usize, Vec<u8>), String> {
+    let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(Transformations::normalize_to_color8());
     let unreadable = |error: png::DecodingError| format!("not a readable PNG image: {error}");
     let header = decoder.read_header_info().map_err(unreadable)?;
     let (width, height) = (header.width as usize, header.height as usize);
     // Before memory is taken for it.
-    if width.saturating_mul(height) > MOST_CELLS {
-        return Err(format!("{width} × {height} pixels are more than {MOST_CELLS}; scale the mask down"));
-    }
+    PICTURE_PIXELS.check(width.saturating_mul(height)).map_err(|error| format!("{error}; scale the mask down"))?;
     let mut reader = decoder.read_info().map_err(unreadable)?;
     let size = reader.output_buffer_size().ok_or("the image is too large for this machine")?;
     let mut pixels = vec![0; size];
@@ -48,6 +46,8 @@ fn brightness(pixel: &[u8], color: ColorType) -> u8 {
 
 #[cfg(test)]
 mod tests {
+    use std::fs::File;
+
     use super::*;
 
     fn written(color: ColorType, pixels: &[u8]) -> (tempfile::TempDir, std::path::PathBuf) {

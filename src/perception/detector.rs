@@ -195,6 +195,12 @@ fn detection(measured: &Measured, whole: Footprint, chances: &[f32], best: usize
     }
 }
 
+/// How sure the eyes are that it is furniture at all: the category's chance among all over that among furniture; sure
+/// when no scores tell.
+pub fn furniture_chance(detection: &Detection) -> f64 {
+    detection.scores.get(&detection.category).map_or(1.0, |score| detection.confidence / score.max(1e-9))
+}
+
 /// Of two that stand in the same place, the surer.
 fn without_doubles(mut found: Vec<Detection>) -> Vec<Detection> {
     found.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));

@@ -1,13 +1,15 @@
 //! A frame as a record names it: picture files, intrinsics, and where the camera stood.
 
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
 use super::frame_error::FrameError;
-use super::picture_files::{load_color, load_depth};
-use super::upright::camera_over_floor;
+use super::picture_files::PictureFile;
+use super::upright::{CAMERA_HEIGHTS_M, CAMERA_TILTS_DEG, Depths, NoPose, Told, camera_over_floor};
 use crate::frame::{Intrinsics, RgbdFrame, steady};
+use crate::record::PoseSource;
 
 /// A frame whose pictures lie in files: the line that `perceive` reads, that it hands to a detector of one's own, and
 /// that training frames are written as.
@@ -44,6 +46,12 @@ pub struct FrameFiles {
     /// picture tells height and tilt, and the camera stands at the origin.
     #[serde(rename = "T_world_cam", default, skip_serializing_if = "Option::is_none")]
     pub world_from_camera: Option<[[f64; 4]; 4]>,
+    /// How high above the floor the camera was, where that is known and `T_world_cam` is not, metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera_height: Option<f64>,
+    /// How far down it looked, where that is known and `T_world_cam` is not, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera_tilt: Option<f64>,
 }
 
 impl FrameFiles {
@@ -63,38 +71,59 @@ impl FrameFiles {
             cy,
             depth_unit_m: frame.depth_unit_m,
             world_from_camera: Some(frame.world_from_camera),
+            camera_height: None,
+            camera_tilt: None,
         }
     }
 
-    /// Reads the pictures and checks that they fit each other; relative paths are taken from `folder`.
-    pub fn load(&self, folder: &Path) -> Result<RgbdFrame, FrameError> {
-        let path = folder.join(&self.depth);
-        let (width, height, depth) = load_depth(&path)?;
-        let size = |name: &Path, w, h, other, to: (usize, usize)| {
-            let wrong = || FrameError::Sizes(name.display().to_string(), w, h, other, to.0, to.1);
-            if (w, h) == to { Ok(()) } else { Err(wrong()) }
-        };
-        let said = (self.width.unwrap_or(width), self.height.unwrap_or(height));
-        size(&path, width, height, "the record says", said)?;
+    /// Reads the pictures and checks that they fit each other; relative paths are taken from `folder`. What the line does
+    /// not tell of the camera, `told` may.
+    ///
+    /// # Errors
+    /// When a picture cannot be read or does not fit, or nothing tells where the camera was.
+    pub fn load(&self, folder: &Path, told: Told) -> Result<(RgbdFrame, PoseSource), FrameError> {
+        let depth = PictureFile::open(folder.join(&self.depth))?;
+        let (width, height) = depth.size;
+        depth.require_size("the record says", (self.width.unwrap_or(width), self.height.unwrap_or(height)))?;
         let mut color = Vec::new();
         if let Some(rgb) = &self.rgb {
-            let path = folder.join(rgb);
-            let (w, h, pixels) = load_color(&path)?;
-            size(&path, w, h, "the depth", (width, height))?;
-            color = pixels;
+            let file = PictureFile::open(folder.join(rgb))?;
+            file.require_size("the depth", (width, height))?;
+            color = file.color()?;
         }
+        let depth = depth.depth()?;
         let (depth_unit_m, intrinsics) =
             (self.depth_unit_m, Intrinsics { fx: self.fx, fy: self.fy, cx: self.cx, cy: self.cy });
-        let over_floor = || camera_over_floor(&depth, width, &intrinsics, depth_unit_m).ok_or_else(no_floor);
-        let world_from_camera = self.world_from_camera.map_or_else(over_floor, Ok)?;
-        let world_from_camera = steady(world_from_camera);
-        Ok(RgbdFrame { width, height, color, depth, depth_unit_m, intrinsics, world_from_camera })
+        let told = self.told(told)?;
+        let depths = Depths { pixels: &depth, width, intrinsics, unit_m: depth_unit_m };
+        let over_floor = || camera_over_floor(&depths, told).map_err(no_pose);
+        let given = self.world_from_camera.map(|pose| (pose, PoseSource::Record));
+        let (pose, source) = given.map_or_else(over_floor, Ok)?;
+        let frame =
+            RgbdFrame { width, height, color, depth, depth_unit_m, intrinsics, world_from_camera: steady(pose) };
+        Ok((frame, source))
+    }
+
+    fn told(&self, otherwise: Told) -> Result<Told, FrameError> {
+        let within = |name: &str, value: Option<f64>, range: RangeInclusive<f64>, unit: &str| match value {
+            Some(value) if !range.contains(&value) => {
+                let (low, high) = range.into_inner();
+                Err(FrameError::Wrong(format!("`{name}` {value} must be from {low} to {high} {unit}")))
+            }
+            value => Ok(value),
+        };
+        let height_m = within("camera_height", self.camera_height, CAMERA_HEIGHTS_M, "metres")?;
+        let tilt_deg = within("camera_tilt", self.camera_tilt, CAMERA_TILTS_DEG, "degrees down")?;
+        Ok(Told { height_m: height_m.or(otherwise.height_m), tilt_deg: tilt_deg.or(otherwise.tilt_deg) })
     }
 }
 
-fn no_floor() -> FrameError {
-    let what = "no `T_world_cam`, and no floor shows from which it could be told; give the camera's pose";
-    FrameError::Wrong(what.to_string())
+fn no_pose(why: NoPose) -> FrameError {
+    let need = if why == NoPose::Nothing { "height and tilt" } else { "height" };
+    FrameError::Wrong(format!(
+        "no `T_world_cam`, and {why}; give the camera's {need} (--camera-height METRES, --camera-tilt DEGREES, or \
+         `camera_height` and `camera_tilt` in the line)"
+    ))
 }
 
 /// Checks the numbers of a frame from any source.

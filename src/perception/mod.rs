@@ -11,6 +11,7 @@
 //! The executive sees only [`Eyes`]. What it sees comes from pictures only: nothing here can name the scene, and the
 //! eyes of the simulated robot are in `simulation::eyes`.
 
+mod answer;
 mod beyond;
 mod describe;
 pub(crate) mod detector;
@@ -27,6 +28,7 @@ pub(crate) mod items;
 pub(crate) mod joining;
 pub(crate) mod measures;
 pub(crate) mod model;
+mod network;
 pub mod objects;
 mod overlay;
 pub(crate) mod parts;
@@ -39,10 +41,11 @@ pub(crate) mod scenes;
 pub(crate) mod segment;
 mod stage;
 pub(crate) mod tabletop;
-mod upright;
+pub(crate) mod upright;
 pub(crate) mod walls;
 
-pub use detector::Detector;
+pub use answer::{Answer, Mask, PictureBox};
+pub use detector::{Detector, furniture_chance};
 pub use external::{ExternalDetector, ExternalError};
 pub use frame_error::FrameError;
 pub use frame_files::{FrameFiles, check};
@@ -51,6 +54,10 @@ pub use model::Model;
 pub use overlay::overlay;
 pub use scenes::{GridMap, SceneRecord, SceneView, Scenes, scene_of};
 pub use stage::{Perceiver, text_line};
+pub use upright::{CAMERA_HEIGHTS_M, CAMERA_TILTS_DEG, Depths, NoPose, Told, camera_over_floor};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::frame::RgbdFrame;
 use crate::geometry::Pose;
@@ -87,7 +94,7 @@ pub struct View {
 }
 
 /// A small object in the picture.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ObjectSighting {
     /// What it is taken for.
     pub name: String,

@@ -8,6 +8,7 @@ use std::ops::{Range, RangeInclusive};
 
 use super::ObjectSighting;
 use super::beyond::goes_on_beyond;
+use super::points::above_noise;
 use crate::catalogue::{CATEGORIES, Holds, OBJECTS, SmallObject};
 use crate::frame::RgbdFrame;
 use crate::geometry::{Polygon, Vec2, vec2};
@@ -182,8 +183,7 @@ fn plate_height(points: &[(usize, usize, [f64; 3], f64)]) -> Option<f64> {
 
 /// The pixels that stand above the plate, or differ from it in colour.
 fn spots(frame: &RgbdFrame, points: &[(usize, usize, [f64; 3], f64)], plate: f64) -> Vec<Spot> {
-    // The noise and the steps of depth grow with its square.
-    let tolerance = |depth: f64| 0.014 + 0.005 * depth * depth;
+    let tolerance = |depth: f64| f64::from(above_noise((depth * depth) as f32));
     let flat = points.iter().filter(|p| (p.2[2] - plate).abs() < tolerance(p.3));
     let color_at = |column: usize, row: usize| frame.color[row * frame.width + column];
     let Some(usual) = median_color(flat.map(|p| color_at(p.0, p.1))) else { return Vec::new() };

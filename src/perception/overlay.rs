@@ -9,6 +9,8 @@ use crate::frame::{RgbdFrame, rgb_png};
 use crate::geometry::{Pose, Vec2, vec2};
 use crate::record::Detection;
 
+/// Side of a letter, pixels.
+const LETTER: f64 = 8.0;
 /// Pixels a metre on the map.
 const SCALE: f64 = 60.0;
 /// One colour for each detection, in turn.
@@ -23,8 +25,8 @@ const INKS: [[u8; 3]; 8] = [
     [120, 100, 20],
 ];
 
-/// The overlay of one frame as a PNG file.
-pub fn overlay(frame: &RgbdFrame, view: &View) -> Vec<u8> {
+/// The overlay of one frame as a PNG file, with a caption.
+pub fn overlay(frame: &RgbdFrame, view: &View, caption: &str) -> Vec<u8> {
     let mut canvas = Canvas::new(frame);
     canvas.map(frame);
     for (detection, ink) in view.furniture.iter().zip(INKS.iter().cycle()) {
@@ -34,11 +36,12 @@ pub fn overlay(frame: &RgbdFrame, view: &View) -> Vec<u8> {
         let at = [object.x, object.y, 0.75];
         let label = if object.recognisable { object.name.clone() } else { format!("{}?", object.name) };
         if let Some((x, y)) = pixel(frame, at) {
-            canvas.text(x, y, &label, [255, 0, 255]);
+            canvas.label(x, y, &label, [255, 0, 255]);
         }
         let (x, y) = canvas.on_map(vec2(object.x, object.y));
-        canvas.text(x, y, &label, [255, 0, 255]);
+        canvas.label(x, y, &label, [255, 0, 255]);
     }
+    canvas.text(4.0, canvas.height as f64 - LETTER - 4.0, caption, [0; 3]);
     rgb_png(canvas.width, canvas.height, &canvas.pixels)
 }
 
@@ -58,6 +61,8 @@ struct Canvas {
     picture: usize,
     /// The camera, which is at the middle of the map's lower edge.
     camera: Pose,
+    /// Left, top and width of the labels so far.
+    labels: Vec<(f64, f64, f64)>,
 }
 
 impl Canvas {
@@ -68,7 +73,7 @@ impl Canvas {
             let grey = (f64::from(frame.depth[at]) * frame.depth_unit_m * 40.0).min(255.0) as u8;
             pixels[target] = frame.color.get(at).copied().unwrap_or([grey; 3]);
         }
-        Self { width, height, pixels, picture: frame.width, camera: points(frame).camera }
+        Self { width, height, pixels, picture: frame.width, camera: points(frame).camera, labels: Vec::new() }
     }
 
     /// Floor grey, what stands on it by its height.
@@ -117,15 +122,11 @@ impl Canvas {
         }
         let label = format!("{} {:.0}%", detection.category, 100.0 * detection.confidence);
         if let Some((x, y)) = pixel(frame, [detection.x, detection.y, detection.height]) {
-            self.text(
-                x.clamp(0.0, self.picture as f64 - 8.0 * label.len() as f64),
-                y.clamp(2.0, self.height as f64 - 10.0),
-                &label,
-                ink,
-            );
+            let right = (self.picture as f64 - LETTER * label.len() as f64).max(0.0);
+            self.label(x.clamp(0.0, right), y.min(self.height as f64 - 2.0 * LETTER).max(2.0), &label, ink);
         }
         let (x, y) = self.on_map(middle);
-        self.text(x, y, &label, ink);
+        self.label(x, y, &label, ink);
     }
 
     fn dot(&mut self, x: i64, y: i64, ink: [u8; 3], on_map: bool) {
@@ -142,6 +143,18 @@ impl Canvas {
             let (x, y) = ((from.0 + (to.0 - from.0) * t) as i64, (from.1 + (to.1 - from.1) * t) as i64);
             [(0, 0), (1, 0), (0, 1)].iter().for_each(|(dx, dy)| self.dot(x + dx, y + dy, ink, on_map));
         }
+    }
+
+    /// A label at a place, or below it where others stand already.
+    fn label(&mut self, x: f64, y: f64, text: &str, ink: [u8; 3]) {
+        let width = LETTER * text.chars().count() as f64;
+        let covers = |y: f64, (left, top, wide): &(f64, f64, f64)| {
+            x < left + wide && *left < x + width && (y - top).abs() < LETTER + 1.0
+        };
+        let rows = (0..20).map(|row| y + f64::from(row) * (LETTER + 1.0));
+        let free = rows.into_iter().find(|y| !self.labels.iter().any(|label| covers(*y, label))).unwrap_or(y);
+        self.labels.push((x, free, width));
+        self.text(x, free, text, ink);
     }
 
     /// Letters of 8 pixels on a white ground.

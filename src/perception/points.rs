@@ -9,6 +9,12 @@ pub const STRIDE: usize = 2;
 /// Beyond this the sensor's depth steps are coarser than furniture, metres.
 pub const FARTHEST_M: f32 = 6.6;
 
+/// How far above a top a point at that range may seem to be by noise and the steps of depth, which grow with its square,
+/// metres.
+pub fn above_noise(squared_range: f32) -> f32 {
+    0.014 + 0.0045 * squared_range
+}
+
 /// The points of one frame: x ahead, y to the left, z up, metres; the origin is the floor below the camera.
 #[derive(Clone, Debug)]
 pub struct Points {

@@ -3,7 +3,7 @@
 //! A phone is thinner than the depth noise from 1.5 m on; it shows by its
 //! contrast to the top it lies on.
 
-use super::points::{Points, STRIDE};
+use super::points::{Points, STRIDE, above_noise};
 use super::rectangle::{Rectangle, rectangle_at};
 use super::segment::Segment;
 use crate::frame::RgbdFrame;
@@ -148,7 +148,7 @@ impl Patch {
         let lines = (above..below).map(|row| &frame.color[row * frame.width..][left..right]);
         for ((point, is_thing), color) in self.points.iter().zip(&mut self.is_thing).zip(lines.flatten()) {
             let Some([x, y, up]) = point else { continue };
-            let noise = 0.014 + 0.0045 * (x * x + y * y);
+            let noise = above_noise(x * x + y * y);
             *is_thing = *up > noise || contrast(color.map(|c| f32::from(c) / 255.0), self.color) > least;
         }
     }

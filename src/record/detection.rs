@@ -33,5 +33,6 @@ pub struct Detection {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub attributes: Vec<String>,
     /// The features that decided.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
     pub why: String,
 }

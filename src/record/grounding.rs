@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Motion, Reference, Rounded, Tag};
+use super::{Direction, Frame, Motion, Reference, Rounded, Tag};
 
 /// What the robot understood: room, RDT nodes and object of the best reading.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -242,104 +242,6 @@ impl Pair {
             (Direction::Under, _) => format!("under the {reference}"),
             (Direction::Far, _) => format!("far from the {reference}"),
             (direction, _) => format!("{} of the {reference}", direction.name()),
-        }
-    }
-}
-
-/// The paper's seven directions, and three beyond them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Direction {
-    /// In front, ahead, nearer the door.
-    Front,
-    /// Behind, at the far end.
-    Back,
-    /// To the left.
-    Left,
-    /// To the right.
-    Right,
-    /// In the middle.
-    Central,
-    /// Next to, by, with, against.
-    Side,
-    /// Between two references.
-    Between,
-    /// Over it.
-    Above,
-    /// Below it.
-    Under,
-    /// Of several, the one farthest from it.
-    Far,
-}
-
-impl Direction {
-    /// The name as it stands in records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Front => "front",
-            Self::Back => "back",
-            Self::Left => "left",
-            Self::Right => "right",
-            Self::Central => "central",
-            Self::Side => "side",
-            Self::Between => "between",
-            Self::Above => "above",
-            Self::Under => "under",
-            Self::Far => "far",
-        }
-    }
-
-    /// All of them.
-    pub const ALL: [Self; 10] = [
-        Self::Front,
-        Self::Back,
-        Self::Left,
-        Self::Right,
-        Self::Central,
-        Self::Side,
-        Self::Between,
-        Self::Above,
-        Self::Under,
-        Self::Far,
-    ];
-
-    /// The direction of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|direction| direction.name() == name)
-    }
-
-    /// Left for right and right for left; the others as they are.
-    pub const fn mirrored(self) -> Self {
-        match self {
-            Self::Left => Self::Right,
-            Self::Right => Self::Left,
-            other => other,
-        }
-    }
-}
-
-/// The axes in which a direction is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Frame {
-    /// The robot's pose when the words are reached.
-    Robot,
-    /// The heading at which the room is entered, wherever the robot stands: front is nearer the door.
-    Viewer,
-    /// The item's own front, left and right.
-    Intrinsic,
-    /// Seen by someone who stands before the item's front and looks at it: left and right mirrored.
-    Facing,
-}
-
-impl Frame {
-    /// The name as it stands in records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Robot => "robot",
-            Self::Viewer => "viewer",
-            Self::Intrinsic => "intrinsic",
-            Self::Facing => "facing",
         }
     }
 }

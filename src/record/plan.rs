@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Amount, Destination, Direction, Frame, Pair, Reference};
+use super::{Amount, Destination, Direction, Frame, Motion, Pair, Reference};
 
 /// A queue of actions for the three subtasks: enter the room, navigate inside it, find the object.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -79,36 +79,6 @@ pub enum Action {
         /// Where to: back to the speaker, who is where the robot started, to a room of the map, to furniture.
         to: Destination,
     },
-}
-
-/// A motion inside the room: one that goes, and three that turn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum Motion {
-    /// Go straight ahead.
-    #[serde(rename = "front")]
-    Ahead,
-    /// Turn a quarter to the left.
-    #[serde(rename = "left")]
-    TurnLeft,
-    /// Turn a quarter to the right.
-    #[serde(rename = "right")]
-    TurnRight,
-    /// Turn round.
-    #[serde(rename = "back")]
-    TurnRound,
-}
-
-impl Motion {
-    /// The motion that a direction of a move asks for; nothing for one that is no motion.
-    pub const fn from_direction(direction: Direction) -> Option<Self> {
-        match direction {
-            Direction::Front => Some(Self::Ahead),
-            Direction::Left => Some(Self::TurnLeft),
-            Direction::Right => Some(Self::TurnRight),
-            Direction::Back => Some(Self::TurnRound),
-            _ => None,
-        }
-    }
 }
 
 /// A pair of a search with the other frames to try.

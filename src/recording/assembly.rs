@@ -2,17 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Isometry3, Matrix4};
-
+use super::lens::intrinsics_for;
 use super::losses::Losses;
-use super::mount::Mount;
+use super::mount::{Mount, Taken};
 use super::pictures::{self, DEPTH_UNIT_M};
-use super::roles::Roles;
+use super::place::{NoPlace, Place, place};
+use super::roles::{Role, Roles};
 use super::sensed::{Header, Image, Info, Sensed};
-use super::transform_tree::{Placed, TransformTree, Unplaced};
+use super::spaces::{Spaces, folder, kinship};
 use super::{Loss, TimedFrame};
-use crate::frame::{RgbdFrame, steady};
+use crate::frame::{Intrinsics, Picture, RgbdFrame};
 use crate::geometry::Pose;
+use crate::limits::MCAP_WAITING;
+use crate::perception::{Depths, Told};
 
 /// Colour and depth further apart than this are not one frame, nanoseconds.
 const APART_NS: u64 = 50_000_000;
@@ -22,38 +24,50 @@ const PATIENCE_NS: u64 = 1_000_000_000;
 const CLOCK_MOVED_NS: u64 = 1_000_000_000;
 /// What is kept of the past, nanoseconds.
 const MEMORY_NS: u64 = 5_000_000_000;
-/// No more pictures are kept waiting than this.
-const MOST_WAITING: usize = 64;
 
 /// Everything that has come and may still become part of a frame.
 pub(super) struct Assembly {
     roles: Roles,
     depths: Vec<Waiting>,
     colors: BTreeMap<u64, Image>,
+    /// By topic.
     infos: BTreeMap<String, Info>,
-    tree: TransformTree,
+    spaces: Spaces,
     mount: Mount,
+    told: Told,
     newest_stamp_ns: u64,
+    /// Why pictures that might have been depth were passed over.
+    pub(super) doubtful: BTreeMap<String, String>,
     pub(super) losses: Losses,
 }
 
 struct Waiting {
     image: Image,
+    topic: String,
     log_ns: u64,
+}
+
+impl Waiting {
+    fn taken(&self) -> Taken<'_> {
+        let Header { stamp_ns, frame } = self.image.header();
+        Taken { camera: frame, topic: &self.topic, stamp_ns: *stamp_ns }
+    }
 }
 
 type Items = Vec<Result<TimedFrame, Loss>>;
 
 impl Assembly {
-    pub(super) fn new(topics: Vec<String>) -> Self {
+    pub(super) fn new(topics: Vec<String>, told: Told) -> Self {
         Self {
+            mount: Mount::new(topics.clone()),
             roles: Roles::new(topics),
             depths: Vec::new(),
             colors: BTreeMap::new(),
             infos: BTreeMap::new(),
-            tree: TransformTree::default(),
-            mount: Mount::default(),
+            spaces: Spaces::default(),
+            told,
             newest_stamp_ns: 0,
+            doubtful: BTreeMap::new(),
             losses: Losses::default(),
         }
     }
@@ -64,17 +78,10 @@ impl Assembly {
         match sensed {
             Sensed::Image(image) => self.take_image(topic, log_ns, image, &mut items),
             Sensed::Info(info) => {
-                self.infos.insert(info.header.frame.clone(), info);
+                self.infos.insert(topic.to_string(), info);
             }
-            Sensed::Transforms(all) => {
-                let fixed = topic.ends_with("_static");
-                all.iter().for_each(|one| self.tree.insert(one, fixed));
-            }
-            Sensed::Odometry(pose) => {
-                if self.roles.takes_odometry(topic) {
-                    self.mount.odometry(pose);
-                }
-            }
+            Sensed::Transforms(all) => self.spaces.insert(topic, &all),
+            Sensed::Odometry(pose) => self.mount.odometry(topic, &pose),
             Sensed::Other => {}
         }
         self.give_out(log_ns, &mut items);
@@ -90,12 +97,16 @@ impl Assembly {
     }
 
     fn take_image(&mut self, topic: &str, log_ns: u64, mut image: Image, items: &mut Items) {
-        let is_depth = image.is_depth();
-        match self.roles.takes_picture(topic, is_depth) {
-            Ok(true) => {}
-            Ok(false) => return,
-            Err(what) => return items.extend(self.losses.note("pictures on other topics", what).map(Err)),
-        }
+        let is_depth = match self.roles.of(topic, &image) {
+            Role::Depth => true,
+            Role::Color => false,
+            Role::Double => return,
+            Role::Passed(what) => return items.extend(self.losses.note("pictures on other topics", what).map(Err)),
+            Role::Doubtful(what) => {
+                self.doubtful.insert(topic.to_string(), what);
+                return;
+            }
+        };
         if image.header().stamp_ns == 0 {
             image.restamp(log_ns);
         }
@@ -105,14 +116,14 @@ impl Assembly {
         }
         self.newest_stamp_ns = self.newest_stamp_ns.max(stamp_ns);
         if is_depth {
-            self.depths.push(Waiting { image, log_ns });
+            self.depths.push(Waiting { image, topic: topic.to_string(), log_ns });
         } else {
             self.colors.insert(stamp_ns, image);
         }
         let oldest = self.newest_stamp_ns.saturating_sub(MEMORY_NS);
-        self.tree.forget_before(oldest);
+        self.spaces.forget_before(oldest);
         self.mount.forget_before(oldest);
-        while self.colors.len() > MOST_WAITING {
+        while self.colors.len() > MCAP_WAITING.count() {
             self.colors.pop_first();
         }
     }
@@ -122,7 +133,7 @@ impl Assembly {
         let back_s = (self.newest_stamp_ns - stamp_ns) as f64 / 1e9;
         self.give_out(u64::MAX, items);
         self.colors.clear();
-        self.tree.forget_moving();
+        self.spaces.forget_moving();
         self.mount.forget_moving();
         self.newest_stamp_ns = 0;
         let what = format!("the clock moved back by {back_s:.1} s; poses from before that are not used after it");
@@ -132,12 +143,12 @@ impl Assembly {
     /// Gives out the frames that are complete, or have waited long enough at `now_ns` of the log's clock.
     fn give_out(&mut self, now_ns: u64, items: &mut Items) {
         while let Some(first) = self.depths.first() {
-            let waited = now_ns.saturating_sub(first.log_ns) > PATIENCE_NS || self.depths.len() > MOST_WAITING;
-            if !waited && !self.is_complete(first.image.header()) {
+            let waited = now_ns.saturating_sub(first.log_ns) > PATIENCE_NS || self.depths.len() > MCAP_WAITING.count();
+            if !waited && !self.is_complete(first) {
                 return;
             }
-            let Waiting { image, log_ns } = self.depths.remove(0);
-            match self.assemble(&image, log_ns, items) {
+            let first = self.depths.remove(0);
+            match self.assemble(&first, items) {
                 Ok(frame) => items.push(Ok(frame)),
                 Err((kind, what)) => items.extend(self.losses.note(kind, what).map(Err)),
             }
@@ -145,65 +156,59 @@ impl Assembly {
     }
 
     /// Whether nothing that may still come would make the frame better.
-    fn is_complete(&self, header: &Header) -> bool {
+    fn is_complete(&self, waiting: &Waiting) -> bool {
+        let (taken, header) = (waiting.taken(), waiting.image.header());
         let colored = self.colors.range(header.stamp_ns..).next().is_some();
-        colored && self.camera_of(header).is_some() && {
-            self.tree.is_settled(&header.frame, header.stamp_ns)
-                || self.mount.is_settled(&self.tree, &header.frame, header.stamp_ns)
-        }
-    }
-
-    fn camera_of(&self, header: &Header) -> Option<&Info> {
-        let only = || self.infos.values().next().filter(|_| self.infos.len() == 1);
-        self.infos.get(&header.frame).or_else(only)
-    }
-
-    fn assemble(
-        &mut self,
-        image: &Image,
-        log_ns: u64,
-        items: &mut Items,
-    ) -> Result<TimedFrame, (&'static str, String)> {
-        let header = image.header().clone();
-        let at = format!("the depth picture of {:.3} s", header.stamp_ns as f64 / 1e9);
-        let depth =
-            pictures::depth(image).map_err(|what| ("undecodable pictures", format!("{at} is skipped: {what}")))?;
-        let intrinsics = self.camera_of(&header).map(|info| (info.width, info.height, info.intrinsics));
-        let Some((_, _, Some(intrinsics))) = intrinsics else {
-            let what = "no camera info with its focal lengths (sensor_msgs/CameraInfo, foxglove.CameraCalibration)";
-            return Err(("frames without intrinsics", format!("{at} is skipped: {what} for `{}`", header.frame)));
+        let settled = || {
+            let trees = self.spaces.of(taken.topic).ok();
+            trees.is_some_and(|trees| {
+                trees.is_settled(taken.camera, taken.stamp_ns) || self.mount.is_settled(&trees, taken)
+            })
         };
-        let placed =
-            self.place(&header, items).map_err(|what| ("frames without a pose", format!("{at} is skipped: {what}")))?;
-        let color = self.color_for(&header, depth.width, depth.height, items);
+        colored && self.camera_of(taken).is_some() && settled()
+    }
+
+    /// The description of the camera that took a picture: of its frame, on the topic that has most in common with its
+    /// own; or the only one there is.
+    fn camera_of(&self, taken: Taken) -> Option<&Info> {
+        let only = || self.infos.values().next().filter(|_| self.infos.len() == 1);
+        let own = self.infos.iter().filter(|(_, info)| info.header.frame == taken.camera);
+        own.max_by_key(|(topic, _)| kinship(folder(topic), taken.topic)).map(|(_, info)| info).or_else(only)
+    }
+
+    fn assemble(&mut self, waiting: &Waiting, items: &mut Items) -> Result<TimedFrame, (&'static str, String)> {
+        let (taken, header) = (waiting.taken(), waiting.image.header());
+        let at = format!("the depth picture of {:.3} s", header.stamp_ns as f64 / 1e9);
+        let skipped = |kind, what: String| (kind, format!("{at} is skipped: {what}"));
+        let depth = pictures::depth(&waiting.image).map_err(|what| skipped("undecodable pictures", what))?;
+        let intrinsics = self.intrinsics(taken, &depth).map_err(|what| skipped("frames without intrinsics", what))?;
+        let Picture { width, height, pixels } = depth;
+        let depths = Depths { pixels: &pixels, width, intrinsics, unit_m: DEPTH_UNIT_M };
+        let trees = self.spaces.of(taken.topic);
+        let found =
+            trees.map_err(NoPlace::from).and_then(|trees| place(&trees, &self.mount, taken, &depths, self.told));
+        let Place { world_from_camera, robot, from, assumed } =
+            found.map_err(|why| skipped("frames without a pose", why.to_string()))?;
+        items.extend(assumed.and_then(|said| self.losses.note("frames with an assumed camera mount", said)).map(Err));
+        let color = self.color_for(header, width, height, items);
         let frame = RgbdFrame {
-            width: depth.width,
-            height: depth.height,
+            width,
+            height,
             color,
-            depth: depth.pixels,
+            depth: pixels,
             depth_unit_m: DEPTH_UNIT_M,
             intrinsics,
-            world_from_camera: rows(&placed.root_from_frame),
+            world_from_camera,
         };
-        Ok(TimedFrame { stamp_ns: header.stamp_ns, log_ns, robot: self.robot_at(header.stamp_ns), frame })
+        let robot = robot.map(|at| Pose::new(at.translation.x, at.translation.y, at.rotation.euler_angles().2));
+        Ok(TimedFrame { stamp_ns: header.stamp_ns, log_ns: waiting.log_ns, robot, frame, pose_from: from })
     }
 
-    fn place(&mut self, header: &Header, items: &mut Items) -> Result<Placed, String> {
-        let found = self.tree.place(&header.frame, header.stamp_ns);
-        match self.mount.complete(&self.tree, &header.frame, header.stamp_ns, found) {
-            Ok((placed, None)) => Ok(placed),
-            Ok((placed, Some(assumed))) => {
-                items.extend(self.losses.note("frames with an assumed camera mount", assumed).map(Err));
-                Ok(placed)
-            }
-            Err(Unplaced::Unknown(frame)) => Err(format!(
-                "nothing says where `{frame}` is (tf or tf_static up to map, odom or base_link, or odometry)"
-            )),
-            Err(Unplaced::OtherTime { frame, off_ns }) => Err(format!(
-                "the nearest pose of `{frame}` is {:.1} s off; the clocks of the pictures and the poses differ",
-                off_ns as f64 / 1e9
-            )),
-        }
+    fn intrinsics(&self, taken: Taken, depth: &Picture<u16>) -> Result<Intrinsics, String> {
+        let info = self.camera_of(taken);
+        let known = info.map_or(Ok(None), |info| intrinsics_for(info, depth.width, depth.height))?;
+        let none = "no camera info with its focal lengths (sensor_msgs/CameraInfo, foxglove.CameraCalibration)";
+        known.ok_or_else(|| format!("{none} for `{}`", taken.camera))
     }
 
     /// The colour picture nearest in time; none when it is too far off or does not fit.
@@ -237,16 +242,4 @@ impl Assembly {
         items.extend(self.losses.note("frames without colour", problem).map(Err));
         Vec::new()
     }
-
-    fn robot_at(&self, stamp_ns: u64) -> Option<Pose> {
-        let base = ["base_link", "base_footprint"].into_iter().find(|frame| self.tree.knows(frame));
-        let placed = base.and_then(|frame| self.tree.place(frame, stamp_ns).ok()).map(|p| p.root_from_frame);
-        let pose = placed.or_else(|| self.mount.robot_at(stamp_ns))?;
-        Some(Pose::new(pose.translation.x, pose.translation.y, pose.rotation.euler_angles().2))
-    }
-}
-
-fn rows(isometry: &Isometry3<f64>) -> [[f64; 4]; 4] {
-    let matrix: Matrix4<f64> = isometry.to_homogeneous();
-    steady(std::array::from_fn(|row| std::array::from_fn(|column| matrix[(row, column)])))
 }

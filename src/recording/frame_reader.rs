@@ -6,6 +6,7 @@ use std::io::Read;
 use super::assembly::Assembly;
 use super::sensed::{Reading, decode, reading_of};
 use super::{LogError, LogReader, Loss, TimedFrame, Window};
+use crate::perception::Told;
 
 /// Which frames of a log are wanted.
 #[derive(Clone, Debug, Default)]
@@ -16,18 +17,28 @@ pub struct FrameOptions {
     pub window: Window,
     /// Salvage what is left of damaged chunks.
     pub recover: bool,
+    /// What is known of the camera of frames whose transforms do not tell where it was.
+    pub told: Told,
 }
 
 /// The frames of a log, and everything that was lost or skipped on the way.
-pub struct FrameReader<R> {
-    log: LogReader<R>,
+pub struct FrameReader<M> {
+    log: M,
     window: Window,
     assembly: Assembly,
     ready: VecDeque<Result<TimedFrame, Loss>>,
     channels: BTreeMap<String, Seen>,
     frames: usize,
+    newest_ns: u64,
     ended: bool,
 }
+
+/// Messages of a log, and what was lost of them.
+pub trait Messages: Iterator<Item = Result<mcap::Message<'static>, Loss>> {}
+impl<I: Iterator<Item = Result<mcap::Message<'static>, Loss>>> Messages for I {}
+
+/// A message this much earlier than one before it is out of order, nanoseconds.
+const DISORDER_NS: u64 = 1_000_000_000;
 
 /// What was seen of a topic.
 struct Seen {
@@ -37,21 +48,51 @@ struct Seen {
     messages: u64,
 }
 
-impl<R: Read> FrameReader<R> {
+impl<R: Read> FrameReader<LogReader<R>> {
     /// Reads from `source`; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// When the source does not begin as an MCAP log.
     pub fn new(source: R, name: &str, options: FrameOptions) -> Result<Self, LogError> {
-        Ok(Self {
-            log: LogReader::new(source, name, options.recover)?,
+        Ok(Self::of(LogReader::new(source, name, options.recover)?, options))
+    }
+}
+
+impl<M: Messages> FrameReader<M> {
+    /// Makes frames of messages that are in the order of their times.
+    pub fn of(messages: M, options: FrameOptions) -> Self {
+        Self {
+            log: messages,
             window: options.window,
-            assembly: Assembly::new(options.topics),
+            assembly: Assembly::new(options.topics, options.told),
             ready: VecDeque::new(),
             channels: BTreeMap::new(),
             frames: 0,
+            newest_ns: 0,
             ended: false,
-        })
+        }
+    }
+
+    /// What the frames are made of.
+    pub fn messages(&self) -> &M {
+        &self.log
+    }
+
+    /// Says once when a stream is not in the order of its times, which frames are put together by.
+    fn watch_order(&mut self, log_ns: u64) {
+        if log_ns + DISORDER_NS < self.newest_ns {
+            let back_s = (self.newest_ns - log_ns) as f64 / 1e9;
+            let what = format!(
+                "the log is not in the order of its times (a message is {back_s:.1} s earlier than one before it), and \
+                 what comes too late is not used: sort it by `mcap sort`, or give it as a file"
+            );
+            self.ready.extend(self.assembly.losses.note("messages out of order", what).map(Err));
+        }
+        self.newest_ns = self.newest_ns.max(log_ns);
     }
 
     fn take(&mut self, message: &mcap::Message) {
+        self.watch_order(message.log_time);
         let topic = message.channel.topic.as_str();
         if !self.channels.contains_key(topic) {
             self.meet(message);
@@ -98,7 +139,8 @@ impl<R: Read> FrameReader<R> {
             .map(|(topic, s)| format!("{topic} ({}, {}, {} messages)", s.schema, s.encoding, s.messages))
             .collect();
         let has = if topics.is_empty() { "no messages at all".to_string() } else { topics.join(", ") };
-        self.ready.push_back(Err(Loss(format!("no frame in this log; it has {has}"))));
+        let doubtful = self.assembly.doubtful.values().map(|why| format!("; {why}")).collect::<String>();
+        self.ready.push_back(Err(Loss(format!("no frame in this log; it has {has}{doubtful}"))));
     }
 }
 
@@ -108,7 +150,7 @@ fn is_lasting(schema: &str) -> bool {
         .any(|name| schema.contains(name))
 }
 
-impl<R: Read> Iterator for FrameReader<R> {
+impl<M: Messages> Iterator for FrameReader<M> {
     type Item = Result<TimedFrame, Loss>;
 
     fn next(&mut self) -> Option<Self::Item> {

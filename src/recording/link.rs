@@ -4,9 +4,6 @@ use mcap::Message;
 use mcap::read::{ChannelAccumulator, parse_record};
 use mcap::records::Record;
 
-/// No record is longer than this: a length beyond it is damage, bytes.
-pub(super) const LONGEST_RECORD: u64 = 1 << 28;
-
 /// Takes a schema, channel or message record; a message comes out with its channel.
 pub(super) fn link(
     opcode: u8,

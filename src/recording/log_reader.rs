@@ -11,9 +11,18 @@ use mcap::Message;
 use mcap::read::{ChannelAccumulator, parse_record};
 use mcap::records::{Record, op};
 
-use super::chunk::unpack;
-use super::link::{LONGEST_RECORD, link};
+use super::chunk::{Messages, unpack};
+use super::link::link;
 use super::{LogError, Loss};
+use crate::limits::MCAP_RECORD_BYTES;
+
+/// A length beyond this is damage, bytes.
+const IMPOSSIBLE: u64 = 1 << 42;
+
+/// Kinds of records that bear on the messages.
+const WANTED: [u8; 6] = [op::CHUNK, op::SCHEMA, op::CHANNEL, op::MESSAGE, op::DATA_END, op::FOOTER];
+/// What is passed over is read in pieces, bytes.
+const PIECE: usize = 1 << 16;
 
 /// The messages of a log in its order, those of a chunk by their time, with everything that was lost on the way.
 ///
@@ -26,6 +35,8 @@ pub struct LogReader<R> {
     at_byte: u64,
     checksum: crc32fast::Hasher,
     links: ChannelAccumulator<'static>,
+    /// What is left of the last chunk; it comes before what is ready.
+    chunk: Messages,
     ready: VecDeque<Result<Message<'static>, Loss>>,
     whole: bool,
     state: State,
@@ -58,6 +69,7 @@ impl<R: Read> LogReader<R> {
             at_byte: magic.len() as u64,
             checksum,
             links: ChannelAccumulator::default(),
+            chunk: Messages::default(),
             ready: VecDeque::new(),
             whole: true,
             state: State::Data,
@@ -73,8 +85,12 @@ impl<R: Read> LogReader<R> {
         if got < head.len() {
             return self.cut(begins);
         }
-        if length > LONGEST_RECORD {
+        if length > IMPOSSIBLE {
             return self.lose(Loss::at(begins, "damaged: a record with an impossible length; what follows is lost"));
+        }
+        let is_wanted = WANTED.contains(&head[0]);
+        if !is_wanted || length > MCAP_RECORD_BYTES.value {
+            return self.pass_over(begins, head, length, is_wanted);
         }
         let mut body = Vec::new();
         if let Err(error) = self.source.by_ref().take(length).read_to_end(&mut body) {
@@ -88,6 +104,33 @@ impl<R: Read> LogReader<R> {
             return self.cut(begins);
         }
         self.take(begins, head, &body);
+    }
+
+    /// Reads past a record without holding it: an attachment may be larger than the memory.
+    fn pass_over(&mut self, begins: u64, head: [u8; 9], length: u64, is_wanted: bool) {
+        if self.state == State::Data {
+            self.checksum.update(&head);
+        }
+        let (mut left, mut piece) = (length, vec![0; PIECE]);
+        while left > 0 {
+            let want = left.min(PIECE as u64) as usize;
+            let got = self.fill(&mut piece[..want]);
+            if self.state == State::Data {
+                self.checksum.update(&piece[..got]);
+            }
+            if got < want {
+                return self.cut(begins);
+            }
+            left -= got as u64;
+        }
+        if is_wanted {
+            self.whole = false;
+            let what = format!(
+                "a record of {length} bytes is left out: no more than {} are read at once",
+                MCAP_RECORD_BYTES.value
+            );
+            self.ready.push_back(Err(Loss::at(begins, what)));
+        }
     }
 
     fn take(&mut self, begins: u64, head: [u8; 9], body: &[u8]) {
@@ -110,26 +153,17 @@ impl<R: Read> LogReader<R> {
     }
 
     fn take_chunk(&mut self, begins: u64, body: &[u8]) {
-        let unpacked = unpack(body.len() as u64, body, &mut self.links, true);
-        let Some(damage) = unpacked.damage else {
-            return self.ready.extend(unpacked.messages.into_iter().map(Ok));
-        };
-        self.whole = false;
-        if self.recover {
-            self.salvage(begins, body.len() as u64, body);
-        } else {
-            let hint = "its messages are left out; --recover takes what can be unpacked, unchecked";
-            self.ready.push_back(Err(Loss::at(begins, format!("damaged chunk ({damage}): {hint}"))));
-        }
+        let (messages, loss) = messages_of_chunk(begins, body, &mut self.links, self.recover);
+        self.whole &= loss.is_none();
+        self.chunk = messages;
+        self.ready.extend(loss.map(Err));
     }
 
     /// Takes what can be unpacked of a damaged or cut chunk.
     fn salvage(&mut self, begins: u64, length: u64, body: &[u8]) {
-        let unpacked = unpack(length, body, &mut self.links, false);
-        let count = unpacked.messages.len();
-        self.ready.extend(unpacked.messages.into_iter().map(Ok));
-        let what = format!("damaged chunk: {count} messages salvaged, which no checksum vouches for");
-        self.ready.push_back(Err(Loss::at(begins, what)));
+        let (messages, loss) = salvaged(begins, length, body, &mut self.links);
+        self.chunk = messages;
+        self.ready.push_back(Err(loss));
     }
 
     fn take_plain(&mut self, begins: u64, opcode: u8, body: &[u8]) {
@@ -188,9 +222,39 @@ impl<R: Read> Iterator for LogReader<R> {
     type Item = Result<Message<'static>, Loss>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        while self.ready.is_empty() && self.state != State::Ended {
+        loop {
+            if let Some(message) = self.chunk.next(&mut self.links) {
+                return Some(Ok(message));
+            }
+            if !self.ready.is_empty() || self.state == State::Ended {
+                return self.ready.pop_front();
+            }
             self.advance();
         }
-        self.ready.pop_front()
     }
+}
+
+/// The messages of a chunk, and what is wrong with it; of a damaged one nothing, or with `recover` what can be unpacked.
+pub(super) fn messages_of_chunk(
+    begins: u64,
+    body: &[u8],
+    links: &mut ChannelAccumulator<'static>,
+    recover: bool,
+) -> (Messages, Option<Loss>) {
+    let unpacked = unpack(body.len() as u64, body, links, true);
+    let Some(damage) = unpacked.damage else { return (unpacked.messages, None) };
+    if recover {
+        let (messages, loss) = salvaged(begins, body.len() as u64, body, links);
+        return (messages, Some(loss));
+    }
+    let hint = "its messages are left out; --recover takes what can be unpacked, unchecked";
+    (Messages::default(), Some(Loss::at(begins, format!("damaged chunk ({damage}): {hint}"))))
+}
+
+fn salvaged(begins: u64, length: u64, body: &[u8], links: &mut ChannelAccumulator<'static>) -> (Messages, Loss) {
+    let unpacked = unpack(length, body, links, false);
+    let messages = unpacked.messages;
+    let damage = unpacked.damage.map_or(String::new(), |damage| format!(" ({damage})"));
+    let what = format!("damaged chunk{damage}: {} messages salvaged, which no checksum vouches for", messages.count());
+    (messages, Loss::at(begins, what))
 }

@@ -1,5 +1,6 @@
 //! Pixels of recorded pictures: depth in millimetres, colour as red, green, blue.
 
+use super::rvl::decode_rvl;
 use super::sensed::Image;
 use crate::frame::{Picture, decode_color, decode_depth};
 
@@ -8,6 +9,9 @@ pub(super) const DEPTH_UNIT_M: f64 = 0.001;
 
 /// The header that ROS's compressed_depth_image_transport puts before the PNG, bytes.
 const COMPRESSED_DEPTH_HEADER: usize = 12;
+
+/// No depth camera sees farther, metres; and 16 bits of millimetres hold no more.
+const FARTHEST_M: f32 = 65.5;
 
 const PNG_MAGIC: &[u8] = b"\x89PNG";
 
@@ -26,20 +30,27 @@ pub(super) fn depth(image: &Image) -> Result<Picture<u16>, String> {
                         },
                     )
                 }
-                "32fc1" => pixels(size, data, |bytes: [u8; 4]| {
-                    millimetres(if *big_endian { f32::from_be_bytes(bytes) } else { f32::from_le_bytes(bytes) })
-                }),
+                "32fc1" => metres(&pixels(size, data, |bytes: [u8; 4]| {
+                    if *big_endian { f32::from_be_bytes(bytes) } else { f32::from_le_bytes(bytes) }
+                })?),
                 other => Err(format!("depth encoding `{other}` is not read; 16UC1 and 32FC1 are")),
             }
         }
         Image::Compressed { format, data, .. } => {
-            let float = format.to_ascii_lowercase().starts_with("32fc1");
-            let png = if data.starts_with(PNG_MAGIC) {
+            let format = format.to_ascii_lowercase();
+            let float = format.starts_with("32fc1");
+            let packed = if data.starts_with(PNG_MAGIC) {
                 data.as_slice()
             } else {
                 data.get(COMPRESSED_DEPTH_HEADER..).ok_or("a compressedDepth picture without its header")?
             };
-            let mut picture = decode_depth(png)?;
+            let mut picture = if packed.starts_with(PNG_MAGIC) {
+                decode_depth(packed)?
+            } else if format.contains("rvl") {
+                decode_rvl(packed)?
+            } else {
+                return Err(format!("its packing `{format}` is not read; PNG and RVL are"));
+            };
             if float {
                 dequantize(&mut picture, data)?;
             }
@@ -58,6 +69,19 @@ fn dequantize(picture: &mut Picture<u16>, data: &[u8]) -> Result<(), String> {
         *value = millimetres(a / (f32::from(*value) - b));
     }
     Ok(())
+}
+
+/// Depths of floats in metres; an error when they are none.
+fn metres(picture: &Picture<f32>) -> Result<Picture<u16>, String> {
+    let given: Vec<f32> = picture.pixels.iter().copied().filter(|v| v.is_finite() && *v > 0.0).collect();
+    let far = given.iter().filter(|value| **value > FARTHEST_M).count();
+    if 2 * far > given.len() {
+        return Err(format!(
+            "most of its depths lie beyond {FARTHEST_M} m; perhaps the floats are millimetres: 32FC1 holds metres"
+        ));
+    }
+    let pixels = picture.pixels.iter().map(|value| millimetres(*value)).collect();
+    Ok(Picture { width: picture.width, height: picture.height, pixels })
 }
 
 /// What is no distance becomes 0, that is, nothing came back.

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::error::LogError;
 use super::outputs::{Outputs, TruePiece};
 use super::pace::Pace;
-use super::shapes::Piece;
+use super::shapes::ShownPiece;
 use super::timed_frame::TimedFrame;
 use super::trial_log::TrialLog;
 use super::trial_sinks::Target;
@@ -15,7 +15,7 @@ use crate::geometry::{ClearanceGrid, Pose};
 use crate::map::RoomMap;
 use crate::perception::View;
 use crate::record::{Chunk, Detection, Grounding, Part, Plan, Record, Token, Trial};
-use crate::robot::{MobileBase, SonarReading, p3dx};
+use crate::robot::{MobileBase, SonarReading};
 
 /// The keys the stages add, in their order, under the stage's name.
 const STAGES: [(&str, &[&str]); 4] = [
@@ -80,7 +80,7 @@ impl Recorder {
         }
         log.walls(&about.map.walls(), about.map.wall_height);
         log.grid(0.0, &grid_of(about.map));
-        let pieces = about.truth.iter().map(|piece| Piece {
+        let pieces = about.truth.iter().map(|piece| ShownPiece {
             label: piece.id.clone(),
             corners: &piece.corners,
             height: piece.height,
@@ -135,7 +135,7 @@ fn inputs(record: &Record) -> Vec<(&'static str, String)> {
 impl Watcher for Recorder {
     fn sensed(&mut self, base: &dyn MobileBase) {
         self.log.pose(base.time_s(), base.pose(), base.velocity());
-        let heard = base.sonar().iter().filter(|reading| reading.range_m < p3dx::SONAR_RANGE_M);
+        let heard = base.sonar().iter().filter(|reading| reading.range_m < base.body().sonar_range_m);
         let echoes: Vec<_> = heard.map(SonarReading::echo).collect();
         self.log.sonar(base.time_s(), &echoes);
         if let Some(pace) = &self.pace {
@@ -162,9 +162,9 @@ impl Watcher for Recorder {
     }
 
     fn furniture(&mut self, time_s: f64, furniture: &[Furniture]) {
-        let pieces: Vec<Piece> = furniture
+        let pieces: Vec<ShownPiece> = furniture
             .iter()
-            .map(|f| Piece { label: f.label(), corners: f.footprint.corners(), height: f.detection.height })
+            .map(|f| ShownPiece { label: f.label(), corners: f.footprint.corners(), height: f.detection.height })
             .collect();
         self.log.believed(time_s, &pieces);
     }

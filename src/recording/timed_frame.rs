@@ -7,6 +7,7 @@ use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion};
 use super::time::nanoseconds;
 use crate::frame::RgbdFrame;
 use crate::geometry::Pose;
+use crate::record::PoseSource;
 
 /// A frame with its times.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,13 +20,15 @@ pub struct TimedFrame {
     pub robot: Option<Pose>,
     /// The frame.
     pub frame: RgbdFrame,
+    /// From what the camera's pose is known.
+    pub pose_from: PoseSource,
 }
 
 impl TimedFrame {
     /// A frame taken and logged at one time, seconds.
     pub fn at(time_s: f64, robot: Option<Pose>, frame: RgbdFrame) -> Self {
         let stamp_ns = nanoseconds(time_s);
-        Self { stamp_ns, log_ns: stamp_ns, robot, frame }
+        Self { stamp_ns, log_ns: stamp_ns, robot, frame, pose_from: PoseSource::Transforms }
     }
 
     /// When it was taken, seconds.

@@ -5,13 +5,12 @@ use std::collections::BTreeMap;
 use nalgebra::Isometry3;
 
 use super::sensed::Transform;
+use crate::limits::TRANSFORM_CHAIN;
 
 /// Beyond the first and last sample a transform is believed for this long, nanoseconds.
 const TOLERANCE_NS: u64 = 200_000_000;
-/// No chain of frames is longer than this: a longer one is a loop.
-const LONGEST_CHAIN: usize = 64;
 /// Frames that stand for the world: a chain ends there.
-const WORLDS: [&str; 2] = ["map", "world"];
+pub(super) const WORLDS: [&str; 2] = ["map", "world"];
 
 /// Where each frame is within its parent, over time.
 #[derive(Clone, Debug, Default)]
@@ -26,10 +25,15 @@ struct Track {
     samples: BTreeMap<u64, Isometry3<f64>>,
 }
 
+/// Trees that hold together; where two know a frame, the first counts.
+#[derive(Clone, Debug)]
+pub(super) struct Trees<'a>(pub(super) Vec<&'a TransformTree>);
+
 /// A frame's place in the outermost frame known.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Placed {
-    pub(super) root: String,
+    /// The frames from the one that is placed to the outermost, both among them.
+    pub(super) chain: Vec<String>,
     pub(super) root_from_frame: Isometry3<f64>,
 }
 
@@ -40,6 +44,17 @@ pub(super) enum Unplaced {
     Unknown(String),
     /// What is known of this frame is another time's; by how much, nanoseconds.
     OtherTime { frame: String, off_ns: u64 },
+    /// The transforms end at `root`, and odometry moves another frame.
+    OtherBase { root: String, base: String },
+    /// Several robots' transforms, and nothing says whose camera this is.
+    OtherRobots(Vec<String>),
+}
+
+impl Placed {
+    /// The outermost frame.
+    pub(super) fn root(&self) -> &str {
+        self.chain.last().map_or("", String::as_str)
+    }
 }
 
 impl TransformTree {
@@ -69,9 +84,9 @@ impl TransformTree {
         self.tracks.retain(|_, track| track.fixed);
     }
 
-    /// Whether anything is known of a frame.
-    pub(super) fn knows(&self, frame: &str) -> bool {
-        self.tracks.contains_key(frame)
+    /// The only frame whose place it tells, and the frame within which it tells it: odometry's.
+    pub(super) fn only(&self) -> Option<(&str, &str)> {
+        self.tracks.iter().next().map(|(child, track)| (child.as_str(), track.parent.as_str()))
     }
 
     /// Whether a sample of that time or later has come for a frame.
@@ -80,11 +95,32 @@ impl TransformTree {
         newest.is_some_and(|(&stamp, _)| stamp >= stamp_ns)
     }
 
+    /// Where `frame` was at that time, in the outermost frame of this tree.
+    pub(super) fn place(&self, frame: &str, stamp_ns: u64) -> Result<Placed, Unplaced> {
+        Trees(vec![self]).place(frame, stamp_ns)
+    }
+}
+
+impl Trees<'_> {
+    fn track(&self, frame: &str) -> Option<&Track> {
+        self.0.iter().find_map(|tree| tree.tracks.get(frame))
+    }
+
+    /// Whether anything is known of a frame.
+    pub(super) fn knows(&self, frame: &str) -> bool {
+        self.track(frame).is_some()
+    }
+
+    /// Whether a frame is said to move within its parent.
+    pub(super) fn moves(&self, frame: &str) -> bool {
+        self.track(frame).is_some_and(|track| !track.fixed)
+    }
+
     /// Whether nothing can still come that bears on where a frame was at that time.
     pub(super) fn is_settled(&self, frame: &str, stamp_ns: u64) -> bool {
         let mut frame = frame;
-        for _ in 0..LONGEST_CHAIN {
-            let Some(track) = self.tracks.get(frame) else { return WORLDS.contains(&frame) };
+        for _ in 0..TRANSFORM_CHAIN.count() {
+            let Some(track) = self.track(frame) else { return WORLDS.contains(&frame) };
             let newest = track.samples.last_key_value().map_or(0, |(&stamp, _)| stamp);
             if !track.fixed && newest < stamp_ns {
                 return false;
@@ -96,17 +132,17 @@ impl TransformTree {
 
     /// Where `frame` was at that time, in the outermost frame known.
     pub(super) fn place(&self, frame: &str, stamp_ns: u64) -> Result<Placed, Unplaced> {
-        let mut placed = Placed { root: frame.to_string(), root_from_frame: Isometry3::identity() };
-        for _ in 0..LONGEST_CHAIN {
-            if WORLDS.contains(&placed.root.as_str()) {
-                break;
-            }
-            let Some(track) = self.tracks.get(&placed.root) else { break };
+        let (mut at, mut placed) = (frame.to_string(), Isometry3::identity());
+        let mut chain = vec![at.clone()];
+        while chain.len() <= TRANSFORM_CHAIN.count() && !WORLDS.contains(&at.as_str()) {
+            let Some(track) = self.track(&at) else { break };
             let parent_from_child =
-                track.at(stamp_ns).map_err(|off_ns| Unplaced::OtherTime { frame: placed.root.clone(), off_ns })?;
-            placed = Placed { root: track.parent.clone(), root_from_frame: parent_from_child * placed.root_from_frame };
+                track.at(stamp_ns).map_err(|off_ns| Unplaced::OtherTime { frame: at.clone(), off_ns })?;
+            placed = parent_from_child * placed;
+            at.clone_from(&track.parent);
+            chain.push(at.clone());
         }
-        if placed.root == frame { Err(Unplaced::Unknown(placed.root)) } else { Ok(placed) }
+        if at == frame { Err(Unplaced::Unknown(at)) } else { Ok(Placed { chain, root_from_frame: placed }) }
     }
 }
 
@@ -147,7 +183,7 @@ mod tests {
         tree.insert(&moved(1_000, "odom", "base_link", 1.0), false);
         tree.insert(&moved(3_000, "odom", "base_link", 2.0), false);
         let placed = tree.place("camera", 2_000).expect("placed");
-        assert_eq!((placed.root.as_str(), placed.root_from_frame.translation.x), ("odom", 2.0));
+        assert_eq!((placed.root(), placed.root_from_frame.translation.x), ("odom", 2.0));
     }
 
     #[test]

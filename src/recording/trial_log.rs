@@ -10,7 +10,7 @@ use super::frame_writer::{TF, camera_transforms, link_to_optical, transform, wri
 use super::log_writer::LogWriter;
 use super::mount::tower_link;
 use super::record_schema::RECORD_SCHEMA;
-use super::shapes::{self, Piece, pose3};
+use super::shapes::{self, ShownPiece, pose3};
 use super::time::{nanoseconds, timestamp};
 use super::timed_frame::in_space;
 use super::trial_sinks::TrialSinks;
@@ -131,7 +131,7 @@ impl TrialLog {
     }
 
     /// What the robot believes of the furniture.
-    pub fn believed(&mut self, time_s: f64, pieces: &[Piece]) {
+    pub fn believed(&mut self, time_s: f64, pieces: &[ShownPiece]) {
         let color = Color { r: 0.2, g: 0.45, b: 0.8, a: 0.8 };
         let time_ns = nanoseconds(time_s);
         let update = shapes::furniture("believed", time_ns, pieces, color);
@@ -139,7 +139,7 @@ impl TrialLog {
     }
 
     /// What is true of the furniture.
-    pub fn truth(&mut self, pieces: &[Piece]) {
+    pub fn truth(&mut self, pieces: &[ShownPiece]) {
         let color = Color { r: 0.7, g: 0.6, b: 0.45, a: 0.4 };
         let update = shapes::furniture("true", 0, pieces, color);
         self.put(|log| log.message("/fetch/scene_true", 0, &update));
@@ -200,7 +200,7 @@ impl TrialLog {
 
 const SEEN_SCHEMA: &str = r#"{"type":"object","properties":{"detections":{"type":"array","items":{"type":"object"}}}}"#;
 
-const OPTIONS_SCHEMA: &str = r#"{"type":"object","properties":{"options":{"type":"array","items":{"type":"string"}}}}"#;
+const OPTIONS_SCHEMA: &str = r#"{"type":"object"}"#;
 
 const VELOCITY_SCHEMA: &str =
     r#"{"type":"object","properties":{"linear_m_s":{"type":"number"},"angular_rad_s":{"type":"number"}}}"#;

@@ -3,13 +3,21 @@
 //! Nothing here plans: a base takes velocities and reports what it measures.
 
 pub mod arcos;
+mod body;
 pub mod p3dx;
+mod real;
 pub mod sonar;
+
+pub use body::Body;
+pub use real::{Event, RealBase, Remote};
 
 use crate::geometry::{Pose, Vec2, vec2};
 
 /// A differential-drive base.
 pub trait MobileBase {
+    /// Its outline and the limits it keeps to.
+    fn body(&self) -> Body;
+
     /// Where the base believes it is, by odometry, in the room map's frame.
     fn pose(&self) -> Pose;
 
@@ -21,6 +29,16 @@ pub trait MobileBase {
 
     /// Asks for a velocity (m/s, rad/s) and lets `seconds` pass. The base keeps to its own limits of speed and acceleration.
     fn drive(&mut self, linear: f64, angular: f64, seconds: f64) -> Result<(), RobotError>;
+
+    /// Seconds since the report that pose, velocity and sonars are from.
+    fn age_s(&self) -> f64 {
+        0.0
+    }
+
+    /// Seconds from a velocity that is asked for to the report that shows it, as found when connecting.
+    fn dead_time_s(&self) -> f64 {
+        0.0
+    }
 
     /// The latest sonar readings.
     fn sonar(&self) -> &[SonarReading];
@@ -41,7 +59,7 @@ pub struct SonarReading {
     pub mount: Vec2,
     /// Which way it looks, radians from straight ahead.
     pub bearing: f64,
-    /// Metres to the nearest echo; [`p3dx::SONAR_RANGE_M`] when there is none.
+    /// Metres to the nearest echo; the body's `sonar_range_m` when there is none.
     pub range_m: f64,
 }
 

@@ -1,6 +1,7 @@
 //! The Pioneer 3-DX in numbers (Pioneer 3 Operations Manual; AriaCoda's parameters for the p3dx-sh).
 
-use crate::geometry::{Polygon, Pose, Vec2, vec2};
+use super::Body;
+use crate::geometry::{Vec2, vec2};
 
 /// From the wheels' axis to the front, metres.
 pub const FRONT_M: f64 = 0.210;
@@ -28,6 +29,20 @@ pub const EMERGENCY_BRAKING_M_S2: f64 = 4.0;
 pub const EMERGENCY_TURN_BRAKING_RAD_S2: f64 = 10.472;
 /// What a sonar reports when nothing echoes, metres.
 pub const SONAR_RANGE_M: f64 = 5.0;
+
+/// All of that in one.
+pub const BODY: Body = Body {
+    front_m: FRONT_M,
+    rear_m: REAR_M,
+    width_m: WIDTH_M,
+    swing_m: SWING_M,
+    sonar_range_m: SONAR_RANGE_M,
+    speed_m_s: SPEED_M_S,
+    turn_rad_s: TURN_RAD_S,
+    acceleration_m_s2: ACCELERATION_M_S2,
+    braking_m_s2: BRAKING_M_S2,
+    turn_acceleration_rad_s2: TURN_ACCELERATION_RAD_S2,
+};
 
 /// The sixteen sonars: x ahead, y to the left (mm), bearing (degrees); the newer array.
 const SONARS: [(f64, f64, f64); 16] = [
@@ -90,13 +105,6 @@ impl SonarArray {
 /// Mount (metres) and bearing (radians) of each sonar of the newer array.
 pub fn sonars() -> impl Iterator<Item = (Vec2, f64)> {
     (0..16).filter_map(|number| SonarArray::Newer.sonar(number))
-}
-
-/// The outline of the robot at `pose`, metres.
-pub fn outline(pose: Pose) -> Polygon {
-    let half = WIDTH_M / 2.0;
-    let corners = [(-REAR_M, -half), (FRONT_M, -half), (FRONT_M, half), (-REAR_M, half)];
-    Polygon::new(corners.map(|(x, y)| pose.to_world(vec2(x, y))).to_vec())
 }
 
 #[cfg(test)]

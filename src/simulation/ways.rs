@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use super::scene::{Item, Scene};
-use crate::behavior::{Beliefs, NARROW_M, SWING_M, Ways, grid_of, length, route};
+use crate::behavior::{Beliefs, Clearances, Ways, grid_of, length, route};
 use crate::map::RoomMap;
 use crate::record::Detection;
+use crate::robot::p3dx;
 
 /// The shortest ways in one home that were asked for already: many trials are judged by the same.
 #[derive(Debug, Default)]
@@ -40,9 +41,10 @@ fn shortest_way(map: &RoomMap, scene: &Scene, item: &Item) -> Option<f64> {
     }
     let start = map.start.position();
     let piece = Beliefs::of(vec![ideal_detection(item)]).furniture.pop()?;
-    let ways = Ways { grid: &grid, rooms: &rooms, from: start, narrowest: NARROW_M };
+    let Clearances { to_turn, narrow, .. } = Clearances::of(&p3dx::BODY);
+    let ways = Ways { grid: &grid, rooms: &rooms, from: start, to_turn, narrowest: narrow };
     let ways = ways.viewpoints(&piece).into_iter().filter_map(|pose| {
-        let way = route(&grid, start, pose.position(), SWING_M)?;
+        let way = route(&grid, start, pose.position(), to_turn)?;
         Some(length(start, &way))
     });
     ways.fold(None, |least: Option<f64>, way| Some(least.map_or(way, |l| l.min(way))))

@@ -1,121 +1,81 @@
 //! The options that decide what becomes of a trial: into a recording, and out of it again.
 
-use std::collections::BTreeMap;
-use std::ffi::OsString;
 use std::fs::File;
 use std::io::BufReader;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use clap::{ArgAction, ArgMatches, CommandFactory, FromArgMatches};
-use serde::{Deserialize, Serialize};
-use spatial_fetch::cli::Failure;
+use clap::parser::ValueSource;
+use clap::{CommandFactory, FromArgMatches};
+use spatial_fetch::cli::{Failure, Reporter, TrialOptions};
 use spatial_fetch::recording::OPTIONS_TOPIC;
 use spatial_fetch::recording::{LogReader, RecordReader, Window};
 
 use crate::Arguments;
 
-const DECIDING: [&str; 15] = [
-    "world",
-    "map",
-    "noise",
-    "perception",
-    "depth_noise",
-    "depth_loss",
-    "light",
-    "blind",
-    "one_frame",
-    "first_pair_only",
-    "no_fallback",
-    "no_glance",
-    "no_localization",
-    "time_limit",
-    "seed",
-];
-
-/// As they stand in a recording.
-#[derive(Serialize, Deserialize)]
-struct Recorded {
-    options: Vec<String>,
-}
-
-/// What a replay is run with, and what has to be said of it.
-pub struct Replay {
-    pub arguments: Arguments,
-    pub remarks: Vec<String>,
-}
-
-/// The options of this run as one line, defaults included: they may change.
-pub fn recorded_line() -> Result<String, Failure> {
-    let given = matches(std::env::args_os())?;
-    let options = values(&given).into_iter().flat_map(|(name, value)| match value.as_str() {
-        "false" => vec![],
-        "true" => vec![name],
-        _ => vec![name, value],
-    });
-    // Strings always serialize.
-    Ok(serde_json::to_string(&Recorded { options: options.collect() }).unwrap_or_default())
-}
-
-/// The recorded options, overridden by those of the command line; nothing when the log says none.
-pub fn replay(log: &Path) -> Result<Option<Replay>, Failure> {
-    let Some(recorded) = options_of(log)? else { return Ok(None) };
-    let mut words = std::env::args_os();
-    let program: Vec<OsString> = words.next().into_iter().collect();
-    let as_recorded: Vec<OsString> = program.into_iter().chain(recorded.iter().map(OsString::from)).collect();
-    let before = values(&matches(as_recorded.clone())?);
-    let both = matches(as_recorded.into_iter().chain(words))?;
-    let usual = values(&matches(["drive"].map(OsString::from))?);
-    let shown: Vec<String> =
-        before.iter().filter(|(name, value)| usual.get(*name) != Some(*value)).map(|(n, v)| option(n, v)).collect();
-    let mut remarks = Vec::new();
-    if !shown.is_empty() {
-        remarks.push(format!("as recorded: {}", shown.join(" ")));
-    }
-    for (name, value) in values(&both) {
-        match before.get(&name) {
-            Some(was) if *was == value => {}
-            Some(was) => remarks.push(format!("{} instead of {was}, as recorded", option(&name, &value))),
-            None => remarks.push(format!("{}, which was not recorded", option(&name, &value))),
+impl Arguments {
+    /// The options of this run that decide a simulated trial.
+    pub fn trial_options(&self) -> TrialOptions {
+        let home = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
+        TrialOptions {
+            world: home(&self.home.world),
+            map: home(&self.home.map),
+            noise: self.noise.unwrap_or_default(),
+            dead_time: self.dead_time,
+            jitter: self.jitter,
+            perception: self.eyes.perception,
+            depth_noise: self.eyes.depth_noise,
+            depth_loss: self.eyes.depth_loss,
+            light: self.eyes.light,
+            blind: self.executive.blind,
+            one_frame: self.executive.one_frame,
+            first_pair_only: self.executive.first_pair_only,
+            no_fallback: self.executive.no_fallback,
+            no_glance: self.executive.no_glance,
+            no_localization: self.executive.no_localization,
+            time_limit: self.executive.time_limit,
+            seed: self.common.seed,
         }
     }
-    let arguments = Arguments::from_arg_matches(&both).map_err(|error| Failure::Usage(error.to_string()))?;
-    Ok(Some(Replay { arguments, remarks }))
-}
 
-fn option(name: &str, value: &str) -> String {
-    if value == "true" { name.to_string() } else { format!("{name} {value}") }
+    fn take(&mut self, options: TrialOptions) {
+        (self.home.world, self.home.map) = (options.world.map(PathBuf::from), options.map.map(PathBuf::from));
+        (self.noise, self.eyes.perception) = (Some(options.noise), options.perception);
+        (self.dead_time, self.jitter) = (options.dead_time, options.jitter);
+        self.eyes.depth_noise = options.depth_noise;
+        self.eyes.depth_loss = options.depth_loss;
+        self.eyes.light = options.light;
+        self.executive.blind = options.blind;
+        self.executive.one_frame = options.one_frame;
+        self.executive.first_pair_only = options.first_pair_only;
+        self.executive.no_fallback = options.no_fallback;
+        self.executive.no_glance = options.no_glance;
+        self.executive.no_localization = options.no_localization;
+        self.executive.time_limit = options.time_limit;
+        self.common.seed = options.seed;
+    }
+
+    /// With the options that the log says, where none were given.
+    pub fn as_recorded_in(mut self, log: &Path, reporter: &Reporter) -> Result<Self, Failure> {
+        let Some(line) = recorded_line(log)? else { return Ok(self) };
+        let failed = |what: &dyn std::fmt::Display| Failure::Failed(format!("{}: {what}", log.display()));
+        let parse = |words: Vec<std::ffi::OsString>| {
+            Self::command().try_get_matches_from(words).map_err(|error| Failure::Usage(error.to_string()))
+        };
+        let given = parse(std::env::args_os().collect())?;
+        let usual = Self::from_arg_matches(&parse(vec!["drive".into()])?);
+        let usual = usual.map_err(|error| Failure::Usage(error.to_string()))?.trial_options();
+        let is_given = |name: &str| given.value_source(name) == Some(ValueSource::CommandLine);
+        let replayed = self.trial_options().replaying(&line, &usual, is_given).map_err(|error| failed(&error))?;
+        replayed.remarks.iter().for_each(|remark| reporter.remark(remark));
+        self.take(replayed.options);
+        Ok(self)
+    }
 }
 
 /// The options in a log, as far as it can be read.
-fn options_of(path: &Path) -> Result<Option<Vec<String>>, Failure> {
-    let failed = |error: &dyn std::fmt::Display| Failure::Failed(format!("{}: {error}", path.display()));
-    let file = File::open(path).map_err(|error| failed(&error))?;
-    let log = LogReader::new(BufReader::new(file), &path.display().to_string(), false);
+fn recorded_line(log: &Path) -> Result<Option<Vec<u8>>, Failure> {
+    let file = File::open(log).map_err(|error| Failure::Failed(format!("{}: {error}", log.display())))?;
+    let log = LogReader::new(BufReader::new(file), &log.display().to_string(), false);
     let log = log.map_err(|error| Failure::Failed(error.to_string()))?;
-    let Some(line) = RecordReader::new(log, OPTIONS_TOPIC, Window::default()).find_map(Result::ok) else {
-        return Ok(None);
-    };
-    let recorded: Recorded = serde_json::from_slice(&line).map_err(|error| failed(&error))?;
-    Ok(Some(recorded.options))
-}
-
-/// Parses words of which the later ones override the earlier.
-fn matches(words: impl IntoIterator<Item = OsString>) -> Result<ArgMatches, Failure> {
-    let command = Arguments::command().args_override_self(true);
-    command.try_get_matches_from(words).map_err(|error| Failure::Usage(error.to_string()))
-}
-
-/// The deciding options and their values; a file by its whole path, so that it is found from elsewhere.
-fn values(matches: &ArgMatches) -> BTreeMap<String, String> {
-    let command = Arguments::command();
-    let deciding = command.get_arguments().filter(|argument| DECIDING.contains(&argument.get_id().as_str()));
-    deciding
-        .filter_map(|argument| {
-            let value = matches.get_raw(argument.get_id().as_str())?.next_back()?.to_string_lossy().into_owned();
-            let is_file = !matches!(argument.get_action(), ArgAction::SetTrue) && Path::new(&value).is_file();
-            let whole = std::path::absolute(&value).ok().filter(|_| is_file);
-            let value = whole.map_or(value, |path| path.display().to_string());
-            Some((format!("--{}", argument.get_long()?), value))
-        })
-        .collect()
+    Ok(RecordReader::new(log, OPTIONS_TOPIC, Window::default()).find_map(Result::ok))
 }

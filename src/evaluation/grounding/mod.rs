@@ -65,7 +65,7 @@ pub struct GroundingScores {
 
 /// Runs the experiments on the descriptions of `gold` that are labelled.
 pub fn evaluate_grounding(corpus: &str, gold: &[Gold], experiment: &Experiment) -> Result<GroundingScores, String> {
-    let gold: Vec<&Gold> = gold.iter().filter(|gold| gold.has_grounding).collect();
+    let gold: Vec<&Gold> = gold.iter().filter(|gold| gold.is_labelled()).collect();
     if let Some(bare) = gold.iter().find(|gold| gold.text.is_empty()) {
         return Err(format!("{corpus}: record \"{}\" has no text; name the file that has it with --texts", bare.id));
     }

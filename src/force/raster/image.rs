@@ -1,9 +1,7 @@
 //! A raster object: cells with membership.
 
 use crate::geometry::{Vec2, vec2};
-
-/// The most cells of one raster: 4096 × 4096. Beyond that the correlation would not fit a usual memory.
-pub const MOST_CELLS: usize = 1 << 24;
+use crate::limits::RASTER_CELLS;
 
 /// An object as a grid of cells, row 0 on top, each with a membership from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +46,7 @@ pub enum RasterError {
     #[error("the cell size {0} is not a positive number of metres")]
     Cell(f64),
     /// Too many cells.
-    #[error("{width} × {height} cells are more than {MOST_CELLS}; use larger cells or cut out the part that matters")]
+    #[error("{width} × {height} cells are more than {}; use larger cells or cut out the part that matters", RASTER_CELLS.value)]
     TooManyCells {
         /// Columns.
         width: usize,
@@ -199,7 +197,7 @@ impl Raster {
 fn require_few(width: usize, height: usize) -> Result<(), RasterError> {
     match width.checked_mul(height) {
         Some(0) => Err(RasterError::Empty),
-        Some(cells) if cells <= MOST_CELLS => Ok(()),
+        Some(cells) if cells <= RASTER_CELLS.count() => Ok(()),
         _ => Err(RasterError::TooManyCells { width, height }),
     }
 }

@@ -5,12 +5,15 @@ use foxglove::messages as fox;
 use nalgebra::Isometry3;
 
 use super::ros::{intrinsics, isometry};
-use super::{Header, Image, Info, Sensed, Transform};
+use super::{Header, Image, Info, Sensed, Transform, frame_name};
 use crate::recording::time;
 
 /// Decodes a message of the named type.
 pub(super) fn decode(name: &str, data: &[u8], log_ns: u64) -> Result<Sensed, String> {
-    let header = |stamp, frame: String| Header { stamp_ns: time::of_timestamp(stamp).unwrap_or(log_ns), frame };
+    let header = |stamp, frame: String| Header {
+        stamp_ns: time::of_timestamp(stamp).unwrap_or(log_ns),
+        frame: frame_name(&frame),
+    };
     Ok(match name {
         "foxglove.RawImage" => {
             let m = parse::<fox::RawImage>(data)?;
@@ -26,7 +29,8 @@ pub(super) fn decode(name: &str, data: &[u8], log_ns: u64) -> Result<Sensed, Str
         "foxglove.CameraCalibration" => {
             let m = parse::<fox::CameraCalibration>(data)?;
             let (header, intrinsics) = (header(m.timestamp, m.frame_id), intrinsics(&m.k));
-            Sensed::Info(Info { header, width: m.width, height: m.height, intrinsics })
+            let (width, height) = (m.width, m.height);
+            Sensed::Info(Info { header, width, height, intrinsics, binning: [1; 2], window: [0; 4] })
         }
         "foxglove.FrameTransform" => Sensed::Transforms(vec![transform(parse(data)?, log_ns)]),
         "foxglove.FrameTransforms" => {
@@ -61,8 +65,8 @@ fn parse<T: Decode>(data: &[u8]) -> Result<T, String> {
 fn transform(one: fox::FrameTransform, log_ns: u64) -> Transform {
     Transform {
         stamp_ns: time::of_timestamp(one.timestamp).unwrap_or(log_ns),
-        parent: one.parent_frame_id,
-        child: one.child_frame_id,
+        parent: frame_name(&one.parent_frame_id),
+        child: frame_name(&one.child_frame_id),
         parent_from_child: placed(one.translation, one.rotation),
     }
 }

@@ -31,6 +31,15 @@ pub(super) struct Info {
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) intrinsics: Option<Intrinsics>,
+    /// Pixels of the sensor that make one of the picture, across and down; 0 is 1.
+    pub(super) binning: [u32; 2],
+    /// The part of the sensor that was read: column, row, width, height; all of it when there is no width.
+    pub(super) window: [u32; 4],
+}
+
+/// The name of a frame: ROS 1's leading slash says nothing.
+fn frame_name(name: &str) -> String {
+    name.trim_start_matches('/').to_string()
 }
 
 /// Where a frame is within another, metres.
@@ -108,11 +117,21 @@ impl Image {
         }
     }
 
+    /// Whether it may hold depth: 16 bits of grey may be infrared as well.
+    pub(super) fn may_be_depth(&self) -> bool {
+        let is_grey = |encoding: &str| encoding.to_ascii_lowercase().starts_with("mono16");
+        self.is_depth()
+            || match self {
+                Self::Raw { encoding, .. } => is_grey(encoding),
+                Self::Compressed { format, .. } => is_grey(format),
+            }
+    }
+
     /// Whether it holds depth rather than colour, by its encoding.
     pub(super) fn is_depth(&self) -> bool {
         match self {
             Self::Raw { encoding, .. } => {
-                matches!(encoding.to_ascii_lowercase().as_str(), "16uc1" | "32fc1" | "mono16")
+                matches!(encoding.to_ascii_lowercase().as_str(), "16uc1" | "32fc1")
             }
             Self::Compressed { format, .. } => {
                 let format = format.to_ascii_lowercase();

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::wire::{Wire, WireError};
-use super::{Header, Image, Info, Sensed, Transform};
+use super::{Header, Image, Info, Sensed, Transform, frame_name};
 use crate::frame::Intrinsics;
 use crate::recording::time;
 
@@ -37,7 +37,7 @@ fn header(wire: &mut Wire) -> Result<Header, WireError> {
         wire.u32()?;
     }
     let stamp_ns = time::of_parts(wire.u32()?, wire.u32()?);
-    Ok(Header { stamp_ns, frame: wire.string()?.trim_start_matches('/').to_string() })
+    Ok(Header { stamp_ns, frame: frame_name(&wire.string()?) })
 }
 
 fn image(wire: &mut Wire) -> Result<Sensed, WireError> {
@@ -64,7 +64,12 @@ fn info(wire: &mut Wire) -> Result<Sensed, WireError> {
         wire.f64()?;
     }
     let k = wire.f64s::<9>()?;
-    Ok(Sensed::Info(Info { header, width, height, intrinsics: intrinsics(&k) }))
+    // Rectification and projection, which depth needs no more.
+    wire.f64s::<21>()?;
+    let binning = [wire.u32()?, wire.u32()?];
+    let [column, row, window_height, window_width] = [wire.u32()?, wire.u32()?, wire.u32()?, wire.u32()?];
+    let window = [column, row, window_width, window_height];
+    Ok(Sensed::Info(Info { header, width, height, intrinsics: intrinsics(&k), binning, window }))
 }
 
 /// The camera of a row-major 3 × 3 matrix; nothing when it was left empty.
@@ -87,7 +92,7 @@ pub(super) fn isometry([x, y, z]: [f64; 3], [i, j, k, w]: [f64; 4]) -> Isometry3
 
 fn odometry(wire: &mut Wire) -> Result<Sensed, WireError> {
     let Header { stamp_ns, frame: parent } = header(wire)?;
-    let child = wire.string()?;
+    let child = frame_name(&wire.string()?);
     let child = if child.is_empty() { "base_link".to_string() } else { child };
     let parent_from_child = pose(wire)?;
     Ok(Sensed::Odometry(Transform { stamp_ns, parent, child, parent_from_child }))
@@ -97,7 +102,7 @@ fn transforms(wire: &mut Wire) -> Result<Sensed, WireError> {
     let mut all = Vec::new();
     for _ in 0..wire.u32()? {
         let Header { stamp_ns, frame: parent } = header(wire)?;
-        let child = wire.string()?.trim_start_matches('/').to_string();
+        let child = frame_name(&wire.string()?);
         all.push(Transform { stamp_ns, parent, child, parent_from_child: pose(wire)? });
     }
     Ok(Sensed::Transforms(all))

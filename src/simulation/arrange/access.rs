@@ -3,25 +3,25 @@
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
-use crate::catalogue::Shape;
+use crate::behavior::{Clearances, grid_of};
+use crate::catalogue::FurnitureShape;
 use crate::geometry::{Cell, ClearanceGrid, Vec2, vec2};
 use crate::map::RoomMap;
+use crate::robot::p3dx;
 use crate::simulation::{Item, Scene};
 
-/// What a planner keeps clear, metres: the P3DX turns in place within 0.369 m; the rest is a cell of the planning grid
-/// and how far from a goal the robot may stop.
-pub const SWING_M: f64 = 0.46;
 /// Room beyond the swing that a place to stand and look needs, metres.
 const SPARE_M: f64 = 0.06;
 /// From a piece's edge and from its middle to the robot at least, and how much farther still does, metres.
 const FROM_EDGE_M: f64 = 0.5;
 const FROM_MIDDLE_M: f64 = 1.15;
 const SLACK_M: f64 = 0.5;
+/// Places are tried at this distance from one another, metres.
+const STEP_M: f64 = 0.1;
 /// Directions tried round a piece.
 const DIRECTIONS: usize = 16;
-/// Cell of the grid, and beyond what distance clearance is not told apart, metres.
-const CELL_M: f64 = 0.1;
-const REACH_M: f64 = 0.8;
+/// A line of sight passes walls by this, metres.
+const SIGHT_M: f64 = 0.1;
 
 /// Whether every piece that holds an object, and every table, can be looked at by a robot that comes from the start.
 pub fn everything_is_accessible(map: &RoomMap, scene: &Scene) -> bool {
@@ -30,12 +30,13 @@ pub fn everything_is_accessible(map: &RoomMap, scene: &Scene) -> bool {
 
 /// The pieces that hold an object, or are tables, and cannot be looked at by a robot that comes from the start.
 pub fn inaccessible<'s>(map: &RoomMap, scene: &'s Scene) -> Vec<&'s Item> {
-    let rooms = grid_of_rooms(map);
+    let rooms = grid_of(map);
     let mut grid = rooms.clone();
     scene.furniture.iter().for_each(|item| grid.add_polygon(&item.footprint()));
-    let reached = reached_cells(&grid, map.start.position());
+    let to_turn = Clearances::of(&p3dx::BODY).to_turn;
+    let reached = reached_cells(&grid, map.start.position(), to_turn);
     let wanted = scene.furniture.iter().filter(|item| holds_something(scene, item) || is_table(item));
-    wanted.filter(|item| !is_accessible(item, &grid, &rooms, &reached)).collect()
+    wanted.filter(|item| !is_accessible(item, &grid, &rooms, &reached, to_turn)).collect()
 }
 
 fn holds_something(scene: &Scene, item: &Item) -> bool {
@@ -43,10 +44,10 @@ fn holds_something(scene: &Scene, item: &Item) -> bool {
 }
 
 fn is_table(item: &Item) -> bool {
-    matches!(item.kind().shape, Shape::Table | Shape::RoundTable | Shape::HexagonTable)
+    matches!(item.kind().shape, FurnitureShape::Table | FurnitureShape::RoundTable | FurnitureShape::HexagonTable)
 }
 
-fn is_accessible(item: &Item, grid: &ClearanceGrid, rooms: &ClearanceGrid, reached: &Reached) -> bool {
+fn is_accessible(item: &Item, grid: &ClearanceGrid, rooms: &ClearanceGrid, reached: &Reached, to_turn: f64) -> bool {
     let centre = item.pose().position();
     let outline = item.footprint();
     (0..DIRECTIONS).any(|i| {
@@ -54,23 +55,14 @@ fn is_accessible(item: &Item, grid: &ClearanceGrid, rooms: &ClearanceGrid, reach
         let direction = vec2(angle.cos(), angle.sin());
         let edge = outline.corners().iter().map(|c| (c - centre).dot(&direction)).fold(0.0, f64::max);
         let nearest = (edge + FROM_EDGE_M).max(FROM_MIDDLE_M);
-        (0..=(SLACK_M / CELL_M) as usize).any(|step| {
-            let place = centre + direction * (nearest + CELL_M * step as f64);
+        (0..=(SLACK_M / STEP_M) as usize).any(|step| {
+            let place = centre + direction * (nearest + STEP_M * step as f64);
             let cell = grid.cell(place);
-            grid.clearance(cell) >= SWING_M + SPARE_M
+            grid.clearance(cell) >= to_turn + SPARE_M
                 && reached.holds(cell)
-                && rooms.clearance_along(place, centre) >= CELL_M
+                && rooms.clearance_along(place, centre) >= SIGHT_M
         })
     })
-}
-
-fn grid_of_rooms(map: &RoomMap) -> ClearanceGrid {
-    let walls = map.walls();
-    let none = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
-    let (low, high) = walls.iter().flat_map(|&(a, b)| [a, b]).fold(none, |(low, high), c| (low.inf(&c), high.sup(&c)));
-    let mut grid = ClearanceGrid::new(low, high, CELL_M, REACH_M);
-    walls.into_iter().for_each(|(a, b)| grid.add_segment(a, b));
-    grid
 }
 
 /// The cells that a robot can turn in and get to.
@@ -86,12 +78,12 @@ impl Reached {
     }
 }
 
-fn reached_cells(grid: &ClearanceGrid, from: Vec2) -> Reached {
+fn reached_cells(grid: &ClearanceGrid, from: Vec2, to_turn: f64) -> Reached {
     let (width, height) = grid.size();
     let mut reached = Reached { width, cells: vec![false; width * height] };
     let mut open = VecDeque::from([grid.cell(from)]);
     while let Some((x, y)) = open.pop_front() {
-        if grid.clearance((x, y)) < SWING_M || reached.holds((x, y)) {
+        if grid.clearance((x, y)) < to_turn || reached.holds((x, y)) {
             continue;
         }
         reached.cells[y as usize * width + x as usize] = true;

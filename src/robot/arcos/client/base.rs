@@ -5,10 +5,10 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::{Client, ConnectError, Event, Report, Settings};
+use super::{ArcosSettings, Client, ConnectError, Report};
 use crate::geometry::{Pose, wrap_angle};
 use crate::robot::arcos::line::Line;
-use crate::robot::{MobileBase, RobotError, SonarReading, Status};
+use crate::robot::{Body, Event, MobileBase, RealBase, Remote, RobotError, SonarReading, Status};
 
 /// One turn of the thread waits no longer than this for bytes.
 const TURN: Duration = Duration::from_millis(10);
@@ -20,6 +20,12 @@ const ENDS_WITHIN: Duration = Duration::from_secs(3);
 struct State {
     start: Pose,
     ask: Option<(f64, f64)>,
+    /// Whether what is asked for is passed over.
+    paused: bool,
+    /// Zero set-points go out before anything else.
+    zero: bool,
+    /// Whether the robot stands.
+    stands: bool,
     report: Report,
     events: Vec<Event>,
     failed: Option<String>,
@@ -42,6 +48,7 @@ impl Shared {
 /// A real robot as a mobile base, in the frame of the room map.
 pub struct ArcosBase {
     shared: Arc<Shared>,
+    body: Body,
     thread: Option<JoinHandle<()>>,
     /// What of the shared state the program sees until it drives on.
     report: Report,
@@ -59,32 +66,42 @@ pub struct ArcosBase {
 #[derive(Clone)]
 pub struct Stopper(Arc<Shared>);
 
-impl Stopper {
-    /// Whether someone has told it to stop for good.
-    pub fn is_stopping(&self) -> bool {
+impl Remote for Stopper {
+    fn is_stopping(&self) -> bool {
         self.0.lock().quit
     }
 
-    /// Whether the robot moves, or is told to.
-    pub fn is_moving(&self) -> bool {
+    fn is_moving(&self) -> bool {
         let state = self.0.lock();
         let (linear, angular) = state.report.velocity;
         linear.abs() > 0.005 || angular.abs() > 0.01
     }
 
-    /// Where its odometry believes it is, in the frame of the map.
-    pub fn pose(&self) -> Pose {
+    fn pose(&self) -> Pose {
         let state = self.0.lock();
         in_map(state.start, state.report.pose)
     }
 
-    /// What happened since this was last asked.
-    pub fn take_events(&self) -> Vec<Event> {
+    fn take_events(&self) -> Vec<Event> {
         std::mem::take(&mut self.0.lock().events)
     }
 
-    /// Stops the robot, switches its motors off, closes the line, and waits until that is done.
-    pub fn stop(&self) {
+    fn pause(&self) {
+        let mut state = self.0.lock();
+        (state.paused, state.zero, state.stands) = (true, true, false);
+        let until = Instant::now() + ENDS_WITHIN;
+        while !(state.stands || state.ended) && Instant::now() < until {
+            let waited = self.0.changed.wait_timeout(state, Duration::from_millis(50));
+            state = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+
+    fn go_on(&self) {
+        let mut state = self.0.lock();
+        (state.paused, state.zero, state.ask) = (false, true, None);
+    }
+
+    fn stop(&self) {
         let mut state = self.0.lock();
         state.quit = true;
         let until = Instant::now() + ENDS_WITHIN;
@@ -97,8 +114,8 @@ impl Stopper {
 
 impl ArcosBase {
     /// Connects to the robot on `line`, which stands at `start` in the map.
-    pub fn connect(line: Box<dyn Line + Send>, settings: Settings, start: Pose) -> Result<Self, ConnectError> {
-        let resume = settings.resume;
+    pub fn connect(line: Box<dyn Line + Send>, settings: ArcosSettings, start: Pose) -> Result<Self, ConnectError> {
+        let (resume, body) = (settings.resume, settings.body());
         let client = Client::connect(line, settings)?;
         let preflight = client.preflight();
         let report = client.report().clone();
@@ -117,6 +134,7 @@ impl ArcosBase {
         let thread = thread.map_err(|error| ConnectError::Line("the robot's thread".to_string(), error))?;
         Ok(Self {
             shared,
+            body,
             thread: Some(thread),
             report,
             resume,
@@ -127,25 +145,9 @@ impl ArcosBase {
         })
     }
 
-    /// Everything to know before driving off, in one line.
-    pub fn preflight(&self) -> &str {
-        &self.preflight
-    }
-
     /// A handle that stops the robot.
     pub fn stopper(&self) -> Stopper {
         Stopper(Arc::clone(&self.shared))
-    }
-
-    /// Time and distance begin anew.
-    pub fn begin_trial(&mut self) {
-        self.report = self.shared.lock().report.clone();
-        self.began = (self.report.at, self.report.distance_m);
-    }
-
-    /// Metres driven in this trial.
-    pub fn trial_distance_m(&self) -> f64 {
-        self.report.distance_m - self.began.1
     }
 
     /// The robot's last report.
@@ -172,7 +174,12 @@ fn run<L: Line>(mut client: Client<L>, shared: &Shared) {
     loop {
         let quit = {
             let mut state = shared.lock();
-            if let Some((linear, angular)) = state.ask.take() {
+            let zero = std::mem::take(&mut state.zero);
+            let ask = state.ask.take().filter(|_| !zero && !state.paused);
+            if zero {
+                client.zero();
+            }
+            if let Some((linear, angular)) = ask {
                 client.ask(linear, angular);
             }
             state.quit
@@ -183,6 +190,7 @@ fn run<L: Line>(mut client: Client<L>, shared: &Shared) {
         let turned = if quit { Ok(()) } else { client.turn(TURN) };
         let mut state = shared.lock();
         state.report = client.report().clone();
+        state.stands = client.stands() && !state.zero;
         state.events.extend(client.take_events());
         state.ended = quit || turned.is_err();
         state.failed = turned.err().map(|error| match error {
@@ -192,6 +200,25 @@ fn run<L: Line>(mut client: Client<L>, shared: &Shared) {
         if state.ended {
             return;
         }
+    }
+}
+
+impl RealBase for ArcosBase {
+    fn preflight(&self) -> &str {
+        &self.preflight
+    }
+
+    fn begin_trial(&mut self) {
+        self.report = self.shared.lock().report.clone();
+        self.began = (self.report.at, self.report.distance_m);
+    }
+
+    fn trial_distance_m(&self) -> f64 {
+        self.report.distance_m - self.began.1
+    }
+
+    fn remote(&self) -> Arc<dyn Remote> {
+        Arc::new(self.stopper())
     }
 }
 
@@ -208,6 +235,18 @@ impl Drop for ArcosBase {
 }
 
 impl MobileBase for ArcosBase {
+    fn age_s(&self) -> f64 {
+        self.report.age_s()
+    }
+
+    fn dead_time_s(&self) -> f64 {
+        self.report.dead_time.as_secs_f64()
+    }
+
+    fn body(&self) -> Body {
+        self.body
+    }
+
     fn pose(&self) -> Pose {
         in_map(self.start, self.report.pose)
     }

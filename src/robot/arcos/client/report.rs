@@ -5,15 +5,6 @@ use std::time::Duration;
 use crate::geometry::Pose;
 use crate::robot::{SonarReading, Status};
 
-/// Something worth telling, with its time on the line's clock.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Event {
-    /// When.
-    pub at: Duration,
-    /// What, for people.
-    pub text: String,
-}
-
 /// The latest state of the robot.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
@@ -41,6 +32,17 @@ pub struct Report {
     pub held: Option<String>,
     /// Time on the line's clock.
     pub at: Duration,
+    /// When the robot last reported.
+    pub heard_at: Duration,
+    /// From a command to the report that shows it, as found when connecting.
+    pub dead_time: Duration,
     /// Information packets so far.
     pub sips: u64,
+}
+
+impl Report {
+    /// Seconds since the robot reported this.
+    pub fn age_s(&self) -> f64 {
+        self.at.saturating_sub(self.heard_at).as_secs_f64()
+    }
 }

@@ -2,12 +2,13 @@
 
 use std::time::Duration;
 
+use crate::robot::Body;
 use crate::robot::arcos::parameters::Parameters;
-use crate::robot::p3dx::SonarArray;
+use crate::robot::p3dx::{self, SonarArray};
 
 /// Limits and manners; the defaults are safe ones.
 #[derive(Clone, Debug)]
-pub struct Settings {
+pub struct ArcosSettings {
     /// m/s.
     pub speed: f64,
     /// rad/s.
@@ -32,7 +33,7 @@ pub struct Settings {
     pub sonars: SonarArray,
 }
 
-impl Default for Settings {
+impl Default for ArcosSettings {
     fn default() -> Self {
         Self {
             speed: 0.3,
@@ -50,7 +51,19 @@ impl Default for Settings {
     }
 }
 
-impl Settings {
+impl ArcosSettings {
+    /// The robot with these limits.
+    pub fn body(&self) -> Body {
+        Body {
+            speed_m_s: self.speed,
+            turn_rad_s: self.turn,
+            acceleration_m_s2: self.acceleration,
+            braking_m_s2: self.braking,
+            turn_acceleration_rad_s2: self.turn_acceleration,
+            ..p3dx::BODY
+        }
+    }
+
     /// A velocity within the limits; what is no number is none.
     pub fn limited(&self, linear: f64, angular: f64) -> (f64, f64) {
         let within = |value: f64, most: f64| if value.is_finite() { value.clamp(-most, most) } else { 0.0 };
