@@ -32,6 +32,9 @@ impl FileError {
 }
 
 /// Says before work that takes long what [`write_file`] would say after it.
+///
+/// # Errors
+/// When the file exists and `force` is not set.
 pub fn refuse_existing(path: &Path, force: bool) -> Result<(), FileError> {
     if path.is_file() && !force { Err(FileError::Exists(path.display().to_string())) } else { Ok(()) }
 }
@@ -84,6 +87,9 @@ pub fn end_writing() {
 }
 
 /// Writes a file by a temporary one and a rename; refuses to overwrite without `force`.
+///
+/// # Errors
+/// When the file exists and `force` is not set, or it cannot be written.
 pub fn write_file(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
     let _writing = WRITING.read().unwrap_or_else(PoisonError::into_inner);
     let mut temporary = temporary_beside(path)?;

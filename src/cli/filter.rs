@@ -42,11 +42,18 @@ enum Output {
 }
 
 /// Runs `stage` over all lines of the files, or of standard input.
+///
+/// # Errors
+/// When a file cannot be read, the output cannot be written, or a record cannot be processed and no one said to go on.
 pub fn run_filter(program: &'static str, common: &Common, intake: Intake, stage: &dyn Stage) -> Result<Exit, Failure> {
     run_filter_on(program, common, &mut Inputs::new(&common.files, common.keep_going), intake, stage)
 }
 
 /// Runs `stage` over all lines of `lines`.
+///
+/// # Errors
+/// When the lines cannot be read, the output cannot be written, or a record cannot be processed and no one said to go
+/// on.
 pub fn run_filter_on(
     program: &'static str,
     common: &Common,
@@ -150,6 +157,9 @@ fn process(line: &Line, intake: Intake, style: Style, stage: &dyn Stage) -> Outc
 }
 
 /// The record on a line; none on a blank one.
+///
+/// # Errors
+/// When the line is no JSON object, with the column.
 pub fn record_of(line: &Line, intake: Intake) -> Result<Option<Record<'_>>, Diagnostic> {
     if let Some((offset, message)) = foreign(&line.bytes, line.number == 1) {
         return Err(Diagnostic::at(line, offset, None, message));

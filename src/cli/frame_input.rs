@@ -207,6 +207,9 @@ impl Source<FrameItem> for FrameLogs {
 }
 
 /// Runs a seeing stage over all frames of the logs: one record a frame, with its times and the robot's pose.
+///
+/// # Errors
+/// When a log cannot be read, the output cannot be written, or a frame cannot be processed and no one said to go on.
 pub fn run_frames(
     program: &'static str,
     common: &Common,

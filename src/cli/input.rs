@@ -22,6 +22,9 @@ fn count_lines(file: File) -> Option<u64> {
 }
 
 /// The text of a file.
+///
+/// # Errors
+/// When the file cannot be read or is not UTF-8.
 pub fn read_file(path: &Path) -> Result<String, Failure> {
     std::fs::read_to_string(path).map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))
 }

@@ -38,6 +38,9 @@ pub struct FromLog {
 
 impl FromLog {
     /// The lines of a filter: those of the files, or the records the log has on the topic asked for, else on `topic`.
+    ///
+    /// # Errors
+    /// When a file or log cannot be opened, or the log is no MCAP.
     pub fn lines(&self, common: &Common, topic: &str) -> Result<Box<dyn Source<Line>>, Failure> {
         let Some(path) = &self.from else {
             self.expect_unused()?;

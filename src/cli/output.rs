@@ -34,11 +34,17 @@ pub struct SharedSink(Arc<Mutex<Sink>>);
 
 impl SharedSink {
     /// Writes whole lines and hands them on at once.
+    ///
+    /// # Errors
+    /// When the output takes no more.
     pub fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
         self.with(|sink| sink.write(bytes))
     }
 
     /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// When the file cannot be put in its place.
     pub fn finish(&self) -> Result<(), Failure> {
         self.with(Sink::finish)
     }
@@ -75,6 +81,9 @@ impl SharedSink {
 }
 
 /// Opens what `--output` names, or standard output.
+///
+/// # Errors
+/// When the file exists and is not to be overwritten, or its folder cannot be written to.
 pub fn open_output(common: &Common) -> Result<SharedSink, Failure> {
     let sink = match &common.output {
         None => Sink { name: "standard output".to_string(), target: Target::Stream(Box::new(io::stdout())) },

@@ -176,6 +176,7 @@ fn run(
     let trial = Trial {
         outcome: report.outcome,
         why: report.why,
+        description: report.description,
         final_pose: rounded(pose),
         target_id: None,
         approached: Vec::new(),

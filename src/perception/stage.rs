@@ -56,6 +56,9 @@ impl Perceiver {
     }
 
     /// Adds what a frame from a log shows to its record; `from` says how its pose is known.
+    ///
+    /// # Errors
+    /// As for looking.
     pub fn see(&self, frame: &RgbdFrame, from: PoseSource, record: &mut Record) -> Result<Note, StageError> {
         let name = record.get::<String>("frame")?.or_else(|| record.id());
         self.add(name.as_deref().unwrap_or("frame"), frame, from, record)
@@ -89,6 +92,9 @@ impl Perceiver {
     }
 
     /// The frame a record names.
+    ///
+    /// # Errors
+    /// When the record names no frame, or its files are wrong, with the key.
     pub fn frame_of(&self, record: &Record) -> Result<(String, RgbdFrame, PoseSource), StageError> {
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
         let files: FrameFiles = serde_json::from_str(&line).map_err(|error| {

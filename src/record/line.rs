@@ -39,6 +39,9 @@ pub struct FieldError {
 
 impl<'line> Record<'line> {
     /// Parses one line.
+    ///
+    /// # Errors
+    /// When the line is no JSON object, with the column.
     pub fn parse(line: &'line str) -> Result<Self, serde_json::Error> {
         serde_json::from_str(line).map(|record| Self { line, ..record })
     }
@@ -68,6 +71,9 @@ impl<'line> Record<'line> {
     }
 
     /// The value under `key`, or nothing when the key is absent.
+    ///
+    /// # Errors
+    /// When the value is not of that type.
     pub fn get<'a, T: Deserialize<'a>>(&'a self, key: &str) -> Result<Option<T>, FieldError> {
         let Some(raw) = self.raw(key) else { return Ok(None) };
         serde_json::from_str(raw.get()).map(Some).map_err(|error| FieldError {
@@ -78,6 +84,9 @@ impl<'line> Record<'line> {
     }
 
     /// The value under `key`; its absence is an error that says which stage adds it.
+    ///
+    /// # Errors
+    /// When the key is absent, or its value not of that type.
     pub fn require<'a, T: Deserialize<'a>>(&'a self, key: &str, added_by: &str) -> Result<T, FieldError> {
         self.get(key)?.ok_or_else(|| FieldError {
             key: key.to_string(),
@@ -97,11 +106,17 @@ impl<'line> Record<'line> {
     }
 
     /// What a stage has added, or nothing where it has not run.
+    ///
+    /// # Errors
+    /// When the value is not what the stage writes.
     pub fn part<'a, T: Part + Deserialize<'a>>(&'a self) -> Result<Option<T>, FieldError> {
         self.get(T::KEY)
     }
 
     /// What a stage has added; its absence is an error that says which stage adds it.
+    ///
+    /// # Errors
+    /// When the key is absent, or its value not what the stage writes.
     pub fn require_part<'a, T: Part + Deserialize<'a>>(&'a self, added_by: &str) -> Result<T, FieldError> {
         self.require(T::KEY, added_by)
     }

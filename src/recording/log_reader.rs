@@ -52,6 +52,9 @@ enum State {
 
 impl<R: Read> LogReader<R> {
     /// Reads from `source`; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// When nothing can be read, or it is no MCAP log.
     pub fn new(mut source: R, name: &str, recover: bool) -> Result<Self, LogError> {
         let mut magic = [0; 8];
         match source.read_exact(&mut magic) {
@@ -252,7 +255,9 @@ pub(super) fn messages_of_chunk(
 }
 
 fn salvaged(begins: u64, length: u64, body: &[u8], links: &mut ChannelAccumulator<'static>) -> (Messages, Loss) {
-    let messages = unpack(length, body, links, false).messages;
-    let what = format!("damaged chunk: {} messages salvaged, which no checksum vouches for", messages.count());
+    let unpacked = unpack(length, body, links, false);
+    let messages = unpacked.messages;
+    let damage = unpacked.damage.map_or(String::new(), |damage| format!(" ({damage})"));
+    let what = format!("damaged chunk{damage}: {} messages salvaged, which no checksum vouches for", messages.count());
     (messages, Loss::at(begins, what))
 }

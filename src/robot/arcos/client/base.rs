@@ -114,6 +114,9 @@ impl Remote for Stopper {
 
 impl ArcosBase {
     /// Connects to the robot on `line`, which stands at `start` in the map.
+    ///
+    /// # Errors
+    /// When no robot answers, it reports nothing, or its scales are not known.
     pub fn connect(line: Box<dyn Line + Send>, settings: ArcosSettings, start: Pose) -> Result<Self, ConnectError> {
         let (resume, body) = (settings.resume, settings.body());
         let client = Client::connect(line, settings)?;

@@ -26,6 +26,9 @@ pub struct PtyLine {
 
 impl PtyLine {
     /// Makes a pseudo-terminal that clients open as `path`, a symbolic link; an old link to a pseudo-terminal is replaced, anything else is not.
+    ///
+    /// # Errors
+    /// When the system gives none, or the link cannot be made.
     pub fn create(path: &Path, baud: u32) -> io::Result<Self> {
         let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
         grantpt(&master)?;

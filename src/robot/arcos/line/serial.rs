@@ -30,6 +30,9 @@ pub struct SerialLine {
 
 impl SerialLine {
     /// Opens a device, 8N1, raw, without flow control, refusing to share it.
+    ///
+    /// # Errors
+    /// When there is no such device, or someone else has it open.
     pub fn open(device: &Path, baud: Option<u32>) -> io::Result<Self> {
         let baud_now = baud.unwrap_or(BAUD_RATES[0]);
         let (second, port) = open_port(device, baud_now)?;

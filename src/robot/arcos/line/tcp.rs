@@ -22,11 +22,17 @@ pub struct TcpLine {
 
 impl TcpLine {
     /// Connects to `HOST:PORT`.
+    ///
+    /// # Errors
+    /// When the host is not found or refuses.
     pub fn connect(host: &str) -> io::Result<Self> {
         Ok(Self { host: Some(host.to_string()), stream: Some(dial(host)?), opened: Instant::now() })
     }
 
     /// A connection someone made to us, on a clock that began at `opened`.
+    ///
+    /// # Errors
+    /// When the connection cannot be set to the manners of a line.
     pub fn accepted(stream: TcpStream, opened: Instant) -> io::Result<Self> {
         Ok(Self { host: None, stream: Some(prepared(stream)?), opened })
     }
