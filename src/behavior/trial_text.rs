@@ -37,7 +37,8 @@ pub fn text_of(record: &Record) -> Result<String, StageError> {
 /// How a line of that text is shaded: reasons stand back, the end stands out.
 pub fn shade_of(line: &str) -> Shade {
     let ends = |outcome: &Outcome| line.starts_with(&format!("{}: ", outcome.phrase()));
-    let bad = [Outcome::NotFound, Outcome::Blocked, Outcome::Stuck, Outcome::Timeout, Outcome::Stopped, Outcome::LinkLost];
+    let bad =
+        [Outcome::NotFound, Outcome::Blocked, Outcome::Stuck, Outcome::Timeout, Outcome::Stopped, Outcome::LinkLost];
     if line.starts_with(&" ".repeat(INDENT + 1)) {
         Shade::Faint
     } else if [Outcome::Found, Outcome::Arrived].iter().any(ends) {

@@ -98,12 +98,14 @@ impl Grid {
         let half = self.cell_m / 2.0;
         let mut walls: Vec<[[f64; 2]; 2]> = Vec::new();
         for (x, y) in self.cells(CellState::Occupied).filter(|&(x, y)| inner(self.centre(x, y))) {
+            // The check of the map says how many are too many.
+            if walls.len() > HOME_INNER_WALLS.count() {
+                break;
+            }
             let at = self.centre(x, y);
             match walls.last_mut() {
                 // The next cell of the same row lengthens the segment.
                 Some([_, end]) if end[1] == at.y && (at.x - half - end[0]).abs() < 1e-6 => end[0] = at.x + half,
-                // The check of the map says how many are too many.
-                _ if walls.len() > HOME_INNER_WALLS.count() => break,
                 _ => walls.push([[at.x - half, at.y], [at.x + half, at.y]]),
             }
         }
