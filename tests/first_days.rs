@@ -57,6 +57,17 @@ fn text_is_coloured_when_that_is_asked_for() {
 }
 
 #[test]
+fn where_it_was_is_said_so_that_it_leads_back_to_the_same_piece() {
+    for asked in ["find my mug", "find the fork", "find my laptop"] {
+        let trial = driven(asked, &[]);
+        let description = trial["description"].as_str().expect("a description").to_string();
+        assert!(description.starts_with("Your ") && description.contains(" is in the "), "{description}");
+        let again = driven(&description, &["--no-glance"]);
+        assert_eq!(again["approached"][0], trial["target_id"], "{description}: {again}");
+    }
+}
+
+#[test]
 fn a_narration_tells_each_decision_in_plain_words_and_figures_are_asked_for_twice() {
     let plan = planned("the mug is in the bedroom on the table next to the chairs");
     let told = run("drive", &["-v"], &plan).expect_code(0).err;
@@ -123,12 +134,26 @@ fn a_table_goes_in_and_a_table_comes_out() {
     let records = run("chunk", &["--csv", "said"], table).expect_code(0).out;
     let rows = run("drive", &["--format", "csv"], pipe(&["ground", "plan"], &records)).expect_code(0).out;
     let rows: Vec<&str> = rows.lines().collect();
-    assert!(rows[0].starts_with("id,text,who,outcome,why,target_id,first_approached,right_first"), "{}", rows[0]);
+    assert!(
+        rows[0].starts_with("id,text,who,outcome,why,description,target_id,first_approached,right_first"),
+        "{}",
+        rows[0]
+    );
     assert!(rows[1].starts_with("1,the mug is in the bedroom on the table,Ada,found,"), "{}", rows[1]);
     assert!(rows[2].starts_with("2,find my keys,\"B, C\",not_found,"), "{}", rows[2]);
     assert_eq!(rows.len(), 3);
     let ran = run("chunk", &["--format", "csv"], "go left\n").expect_code(2);
     assert!(ran.err.contains("rows are made by `drive`"), "{}", ran.err);
+}
+
+#[test]
+fn scores_come_as_rows_as_well() {
+    let gold = include_str!("../corpus/templates.jsonl").lines().next().expect("a description");
+    let gold: serde_json::Value = serde_json::from_str(gold).expect("JSON");
+    let record = serde_json::json!({"id": gold["id"], "text": gold["text"]}).to_string();
+    let rows = run("evaluate", &["score", "--part", "--format", "csv"], pipe(&["chunk", "ground"], &record));
+    let rows = rows.expect_code(0).out;
+    assert!(rows.starts_with("by,group,measure,hit,of,share,low,high\nall,all,brackets found,"), "{rows}");
 }
 
 #[test]

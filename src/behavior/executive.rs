@@ -6,6 +6,7 @@ use super::motion::{Landmark, RoomFrame, Step, step_for};
 use super::pilot::Pilot;
 use super::relation::{Place, angle_of};
 use super::search::{Wanted, references};
+use super::telling::telling;
 use super::{Halt, Journal, Watcher};
 use crate::geometry::{Polygon, Pose, Vec2};
 use crate::language::Lexicon;
@@ -31,6 +32,8 @@ pub struct Options {
     pub no_glance: bool,
     /// Believe the odometry alone.
     pub no_localization: bool,
+    /// Say where the object was found as a person would.
+    pub describe: bool,
     /// Seconds of robot time a trial may take.
     pub time_limit_s: f64,
 }
@@ -44,6 +47,7 @@ impl Default for Options {
             no_fallback: false,
             no_glance: false,
             no_localization: false,
+            describe: false,
             time_limit_s: 900.0,
         }
     }
@@ -64,6 +68,8 @@ pub struct Report {
     pub delivered: Vec<Delivery>,
     /// Where the robot believes to be at the end.
     pub pose: Pose,
+    /// Where the object was found, as a person would say it; where that was asked for.
+    pub description: Option<String>,
     /// What was done and why.
     pub journal: Journal,
 }
@@ -76,6 +82,7 @@ pub struct Executive<'a> {
     pub(super) lexicon: &'static Lexicon,
     pub(super) approached: Vec<Vec2>,
     pub(super) found_at: Option<Vec2>,
+    description: Option<String>,
     pub(super) delivered: Vec<Delivery>,
     /// Where the robot started: where the speaker is.
     pub(super) start: Pose,
@@ -118,6 +125,7 @@ impl<'a> Executive<'a> {
             lexicon: Lexicon::embedded(),
             approached: Vec::new(),
             found_at: None,
+            description: None,
             delivered: Vec::new(),
             start,
         }
@@ -146,6 +154,7 @@ impl<'a> Executive<'a> {
             found_at: self.found_at,
             delivered: self.delivered,
             pose,
+            description: self.description,
             journal: self.pilot.journal,
         }
     }
@@ -193,7 +202,10 @@ impl<'a> Executive<'a> {
                 return Ok((Outcome::Arrived, why));
             }
             match self.search(&task, &frame)? {
-                Ok(found) => why = found,
+                Ok(found) => {
+                    why = found;
+                    self.describe(&task, room, &frame);
+                }
                 Err(reason) => {
                     why = reason;
                     continue;
@@ -217,6 +229,13 @@ impl<'a> Executive<'a> {
         Ok((Outcome::NotFound, why))
     }
 
+    /// Notes where the object was found, as someone who comes into the room would be told.
+    fn describe(&mut self, task: &Task, room: &str, frame: &RoomFrame) {
+        let Some(found) = self.found_at.filter(|_| self.options.describe) else { return };
+        let place = Place { room: frame, arrived: frame.entry };
+        self.description = telling(&self.pilot.beliefs, found, task.object, room, place, self.lexicon);
+    }
+
     /// Where nothing to look for was named, the robot goes where it was told to: into the room that was said, else
     /// from where it stands.
     fn only_move(&mut self, actions: &[Action], task: &Task) -> Result<(Outcome, String), Halt> {
@@ -228,13 +247,16 @@ impl<'a> Executive<'a> {
             self.enter(room)?;
         }
         let here = self.map.room_at(self.pilot.pose().position()).map(|room| room.name.clone());
-        let Some(here) = here else { return Ok((Outcome::Arrived, "nothing to look for was named".to_string())) };
-        let frame = RoomFrame::of(self.map, &here, self.pilot.pose());
-        for action in &task.steps {
-            self.step(action, &frame)?;
+        if let Some(here) = here {
+            let frame = RoomFrame::of(self.map, &here, self.pilot.pose());
+            for action in &task.steps {
+                self.step(action, &frame)?;
+            }
         }
-        let place = self.map.room_at(self.pilot.pose().position()).map_or(here, |room| room.name.clone());
-        Ok((Outcome::Arrived, format!("in the {}; nothing to look for was named", place.replace('_', " "))))
+        let brought = self.deliver_all(actions)?;
+        let place = self.map.room_at(self.pilot.pose().position()).map(|room| room.name.replace('_', " "));
+        let place = place.map_or(String::new(), |room| format!("in the {room}; "));
+        Ok((Outcome::Arrived, brought.unwrap_or_else(|| format!("{place}nothing to look for was named"))))
     }
 
     fn task_of<'p>(&self, actions: &'p [Action]) -> Task<'p> {

@@ -30,6 +30,7 @@ mod relation;
 mod route;
 pub mod search;
 mod static_tier;
+mod telling;
 mod trial_record;
 mod trial_text;
 mod wanted;

@@ -236,6 +236,9 @@ impl<'a> Pilot<'a> {
     }
 
     /// Turns through `half_angle` to both sides of the present heading, looking every 30°, and comes back.
+    ///
+    /// # Errors
+    /// When the robot is stopped or held fast, its time is up or its link lost.
     pub fn sweep(&mut self, half_angle: f64) -> Result<(), Halt> {
         let ahead = self.pose().heading;
         let looks = (half_angle / (PI / 6.0)).round().max(1.0) as i32;

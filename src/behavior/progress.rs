@@ -50,6 +50,9 @@ pub(super) struct Idle {
 
 impl Idle {
     /// Until `time_s` this was asked for, m/s and rad/s, and that reported: what is to be said when that goes on too long.
+    ///
+    /// # Errors
+    /// When it is held fast: much was asked for, and little came of it.
     pub fn passed(&mut self, asked: (f64, f64), reported: (f64, f64), time_s: f64) -> Result<(), String> {
         if stands(asked) || !stands(reported) {
             self.since_s = None;

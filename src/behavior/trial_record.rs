@@ -18,6 +18,9 @@ pub struct Run {
 }
 
 /// The plan of a record, made for this home.
+///
+/// # Errors
+/// When there is no plan, it is none, or it was made for another map.
 pub fn plan_of(record: &Record, map: &RoomMap) -> Result<Plan, StageError> {
     let plan: Plan = record.require_part("pipe the record through `plan` first")?;
     if plan.map != map.name {

@@ -26,6 +26,7 @@ pub fn text_of(record: &Record) -> Result<String, StageError> {
     let (metres, seconds) = (trial.distance_m.0, trial.duration_s.0);
     let end = format!("{} ({metres:.1} m, {seconds:.0} s, {} collisions)", trial.why, trial.collisions);
     lines.extend(wrapped(&format!("{}: ", trial.outcome.phrase()), &end, 2));
+    lines.extend(trial.description.iter().flat_map(|description| wrapped("  ", description, 2)));
     lines.extend(trial.delivered.iter().map(|delivery| {
         let what = delivery.objects.join(" and ").replace('_', " ");
         format!("delivered: {what} {}", delivery.to.phrase())
@@ -43,7 +44,7 @@ pub fn shade_of(line: &str) -> Shade {
         Shade::Faint
     } else if [Outcome::Found, Outcome::Arrived].iter().any(ends) {
         Shade::Good
-    } else if bad.iter().any(ends) {
+    } else if bad.iter().any(ends) || line.starts_with("  !  ") {
         Shade::Bad
     } else {
         Shade::Plain
@@ -85,6 +86,7 @@ pub fn row_of(record: &Record) -> Result<Row, StageError> {
     let columns = [
         ("outcome", trial.outcome.name().to_string()),
         ("why", trial.why),
+        ("description", optional(trial.description)),
         ("target_id", optional(trial.target_id)),
         ("first_approached", optional(first)),
         ("right_first", optional(trial.right_first.map(|right| right.to_string()))),

@@ -51,6 +51,6 @@ pub use paper::{Case, Cell, Column, Experiments, Paper, PaperTable, Row, Source,
 pub use pipeline::{Pipeline, Understood};
 pub use report::{write_report, write_trials};
 pub use score::{Group, Scores, run_corpus, score};
-pub use table::text_tables;
+pub use table::{csv_tables, text_tables};
 pub use training_frame::write_training_frame;
 pub use what_if::{Shift, WhatIf, Wording, what_if, what_if_text};

@@ -74,6 +74,9 @@ struct Answer {
 }
 
 /// Scores JSON lines of records against gold; `Err` names a record that is none.
+///
+/// # Errors
+/// When a line is no record.
 pub fn score(gold: &[Gold], lines: &[String]) -> Result<Scores, String> {
     let mut scores = Scores::default();
     let mut answers: HashMap<String, Answer> = HashMap::new();

@@ -111,7 +111,9 @@ impl RealDriver {
     }
 
     fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<Note, StageError> {
-        let failed = |error: String| StageError::new(error);
+        let failed = |error: &dyn std::fmt::Display| StageError::new(error.to_string());
+        let name = record.file_name();
+        self.outputs.prepare(&name, id).map_err(|error| failed(&error))?;
         let mut robot = self.robot();
         let Robot { base, eyes } = &mut *robot;
         base.begin_trial();
@@ -123,7 +125,7 @@ impl RealDriver {
             settings: format!("{:?}", self.options),
             record,
         };
-        let recorder = Recorder::begin(&self.outputs, id, &about).map_err(|error| failed(error.to_string()))?;
+        let recorder = Recorder::begin(&self.outputs, &name, &about).map_err(|error| failed(&error))?;
         let (mut narrator, mut story) = (self.outputs.narrator(id, record), self.outputs.story());
         let mut audience = Several::default();
         narrator.iter_mut().for_each(|narrator| audience.0.push(narrator));
@@ -143,19 +145,18 @@ impl RealDriver {
         drop(log);
         narrator.iter().for_each(|narrator| narrator.end(&run.trial));
         let picture = eyes.frame().map(RgbdFrame::color_png);
-        self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, id)?;
+        let mut lost = self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, &name);
         record.put(&run.trial);
-        let note = note_of(&run.trial);
-        let line = serde_json::to_string(record).map_err(|error| failed(error.to_string()))?;
+        let line = serde_json::to_string(record).map_err(|error| failed(&error))?;
         if let Some(story) = story {
             let thumbnail = eyes.frame().map(RgbdFrame::thumbnail_png);
             self.outputs.tell(Told { line: line.clone(), run: run.clone(), picture: thumbnail, story });
         }
-        let Some(recorder) = recorder else { return Ok(note) };
-        recorder
-            .finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line)
-            .map_err(|error| failed(error.to_string()))?;
-        Ok(note)
+        if let Some(recorder) = recorder {
+            let written = recorder.finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line);
+            lost.extend(written.err().map(|error| error.to_string()));
+        }
+        Ok(note_of(&run.trial).and(lost))
     }
 }
 
@@ -175,6 +176,7 @@ fn run(
     let trial = Trial {
         outcome: report.outcome,
         why: report.why,
+        description: report.description,
         final_pose: rounded(pose),
         target_id: None,
         approached: Vec::new(),

@@ -13,6 +13,9 @@ pub struct Trial {
     pub outcome: Outcome,
     /// One sentence that says why it ended so.
     pub why: String,
+    /// Where the object was found, as a person would say it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub description: Option<String>,
     /// Where the robot ended.
     pub final_pose: Pose,
     /// The furniture at which the object was found, by the scene's id where the truth is known.

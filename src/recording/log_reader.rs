@@ -52,6 +52,9 @@ enum State {
 
 impl<R: Read> LogReader<R> {
     /// Reads from `source`; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// When nothing can be read, or it is no MCAP log.
     pub fn new(mut source: R, name: &str, recover: bool) -> Result<Self, LogError> {
         let mut magic = [0; 8];
         match source.read_exact(&mut magic) {

@@ -40,6 +40,7 @@ impl Narrator {
     pub fn end(&self, trial: &Trial) {
         let (metres, seconds) = (trial.distance_m.0, trial.duration_s.0);
         self.line(&format!("{}: {} ({metres:.1} m, {seconds:.0} s)", trial.outcome.phrase(), trial.why));
+        trial.description.iter().for_each(|description| self.line(description));
     }
 
     fn line(&self, text: &str) {

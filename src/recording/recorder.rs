@@ -107,6 +107,9 @@ impl Recorder {
     }
 
     /// Ends the log with the last picture and the record as `drive` writes it.
+    ///
+    /// # Errors
+    /// When anything could not be written on the way.
     pub fn finish(mut self, duration_s: f64, picture: Vec<u8>, record: &str) -> Result<(), LogError> {
         let end = duration_s;
         self.log.picture(end, picture);

@@ -42,6 +42,9 @@ struct Velocity {
 impl TrialLog {
     /// Begins a log; refuses a file that exists unless forced. `camera` is where it sits on the robot, `about` says
     /// how the trial is run.
+    ///
+    /// # Errors
+    /// When the file exists and is not to be overwritten, or cannot be written.
     pub fn create(target: &Target, camera: &Camera, about: BTreeMap<String, String>) -> Result<Self, LogError> {
         let name = target.file.map_or("the log".to_string(), |path| path.display().to_string());
         let log = Self::begin(target, camera, about).map_err(|error| error.named(&name))?;
@@ -188,6 +191,9 @@ impl TrialLog {
     }
 
     /// Ends the log; tells of any write that failed on the way.
+    ///
+    /// # Errors
+    /// When anything could not be written on the way.
     pub fn finish(mut self, time_s: f64) -> Result<(), LogError> {
         self.flush(time_s);
         let finished = match self.failed {

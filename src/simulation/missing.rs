@@ -11,6 +11,7 @@ pub(super) fn missing(home: &Home, plan: &Plan) -> Option<Run> {
     let trial = Trial {
         outcome: Outcome::NotFound,
         why: what_is_there(&home.scene, sought),
+        description: None,
         final_pose: rounded(start),
         target_id: None,
         approached: Vec::new(),

@@ -30,6 +30,7 @@ pub fn run(home: &Home, plan: &Plan, settings: &TrialSettings, stream: u64, watc
     let trial = Trial {
         outcome: report.outcome,
         why: report.why,
+        description: report.description,
         final_pose: rounded(report.pose),
         target_id: verdict.target_id,
         approached: verdict.approached,
@@ -53,5 +54,6 @@ fn confirm(report: &mut Report, home: &Home, object: Option<&str>, pose: Pose) {
     if report.outcome == Outcome::Found && report.delivered.is_empty() && !is_recognisable(home, object, pose) {
         report.outcome = Outcome::NotFound;
         report.why = format!("mistaken: {}", report.why);
+        report.description = None;
     }
 }

@@ -46,6 +46,9 @@ struct Whereabouts {
 
 impl Served {
     /// Serves the robot in `home` until `goes_on` says no; `tell` hears what happens.
+    ///
+    /// # Errors
+    /// When the address cannot be listened at, or the line fails.
     pub fn run(&self, home: &Home, mut goes_on: impl FnMut() -> bool, tell: impl Fn(&str)) -> io::Result<()> {
         let noise = self.how.noise_in(home.scene.noise.unwrap_or_default());
         let obstacles = Obstacles::new(&home.map, &home.scene);

@@ -116,13 +116,13 @@ impl Arguments {
         let page = self.outputs.page(self.common.force)?;
         let outputs = self.outputs.outputs(&self.common, recorded, &reporter)?;
         let stories = outputs.stories.clone();
-        let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
+        let mut lines = self.log.lines(&self.common, "/fetch/plan")?;
         // Nobody watches two trials at once.
         let common = if watched { Common { jobs: 1, ..self.common } } else { self.common };
         let driver = Driver { home, settings, outputs, search_anyway: self.search_anyway };
         let exit = cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, &driver)?;
-        outputs::write_page(page, stories, &driver.home.map, &driver.home.pieces(), common.force)?;
-        Ok(exit)
+        let written = outputs::write_page(page, stories, &driver.home.map, &driver.home.pieces(), common.force);
+        Ok(ended(exit, written, &common))
     }
 
     /// How the simulated robot is, with that noise where none is given.
@@ -145,18 +145,27 @@ impl Arguments {
         let page = self.outputs.page(self.common.force)?;
         let outputs = self.outputs.outputs(&self.common, String::new(), &reporter)?;
         let (stories, rooms) = (outputs.stories.clone(), map.clone());
-        let mut lines = self.log.lines(&self.common.files, "/fetch/plan")?;
+        let mut lines = self.log.lines(&self.common, "/fetch/plan")?;
         // One robot, one plan at a time.
         let common = Common { jobs: 1, ..self.common };
         let to_stdout = common.output.is_none();
         let driver = self.robot.driver(map, options, outputs, reporter)?;
         let driver = driver.while_heard(move || to_stdout && cli::is_output_closed());
         let exit = cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, &driver)?;
-        outputs::write_page(page, stories, &rooms, &[], common.force)?;
-        Ok(exit)
+        Ok(ended(exit, outputs::write_page(page, stories, &rooms, &[], common.force), &common))
     }
 }
 
+/// The records are out by now: a page that cannot be written is said, and is no reason to call them failed.
+fn ended(exit: Exit, page: Result<(), Failure>, common: &Common) -> Exit {
+    let Err(error) = page else { return exit };
+    Reporter::new(Arguments::NAME, common).fatal(&error.to_string());
+    Exit::Lost
+}
+
 fn main() -> ExitCode {
+    if robot::stands_by() {
+        return robot::stand_by();
+    }
     cli::main::<Arguments>()
 }

@@ -48,6 +48,9 @@ impl TreeBuilder {
     }
 
     /// Adds text: words, and brackets where there are any.
+    ///
+    /// # Errors
+    /// When a bracket closes that was not opened, or a tag is none.
     pub fn text(&mut self, text: &str) -> Result<(), String> {
         let spaced = text.replace('(', " ( ").replace(')', " ) ");
         let mut pieces = spaced.split_whitespace();
@@ -63,6 +66,9 @@ impl TreeBuilder {
     }
 
     /// The tree, without chunks that hold no word.
+    ///
+    /// # Errors
+    /// When a bracket is left open.
     pub fn finish(mut self) -> Result<TokenEntry, String> {
         if !self.open.is_empty() {
             return Err("a bracket is not closed".to_string());

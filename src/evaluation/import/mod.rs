@@ -45,6 +45,9 @@ pub struct ImportError {
 }
 
 /// Reads a treebank and, where there is one, the sheet of groundings; ids are `prefix-0001` and so on.
+///
+/// # Errors
+/// When a file cannot be read, or is no treebank or no sheet of groundings, with the place.
 pub fn import(treebank: &Path, groundings: Option<&Path>, prefix: &str) -> Result<Imported, ImportError> {
     let file = treebank.display().to_string();
     let xml = IMPORT_FILE_BYTES

@@ -20,6 +20,9 @@ use crate::files::{FileError, write_file};
 use crate::simulation::Home;
 
 /// Writes `index.html` into a folder and returns its path.
+///
+/// # Errors
+/// When the folder or the file cannot be written.
 pub fn write_report(
     folder: &Path,
     paper: &Paper,

@@ -59,6 +59,9 @@ pub fn placements(gold: &[Gold], home: &Home, relations: Relations, count: usize
 }
 
 /// The other shipped homes, each with its own descriptions.
+///
+/// # Errors
+/// When the shipped descriptions of a home are no gold, which a test refuses.
 pub fn homes(experiment: &Experiment) -> Result<Vec<Tally>, GoldError> {
     let tally = |OwnHome { name, home, gold }: OwnHome| {
         let one = |(gold, plan): &(&Gold, Plan)| {

@@ -78,6 +78,9 @@ pub struct Client<L: Line> {
 
 impl<L: Line> Client<L> {
     /// Finds the robot, and brings it to stand ready with its motors on.
+    ///
+    /// # Errors
+    /// When no robot answers, it reports nothing, or its scales are not known.
     pub fn connect(mut line: L, settings: ArcosSettings) -> Result<Self, ConnectError> {
         let mut decoder = Decoder::patient();
         let mut handshake = Handshake::new(&mut line, &mut decoder);
@@ -174,6 +177,9 @@ impl<L: Line> Client<L> {
     }
 
     /// One turn: takes in what came within `wait`, and sends what is due.
+    ///
+    /// # Errors
+    /// When the line fails, or the robot has been silent too long.
     pub fn turn(&mut self, wait: Duration) -> Result<(), RobotError> {
         if let Some(why) = &self.lost {
             return Err(RobotError::Link(why.clone()));
@@ -209,6 +215,12 @@ impl<L: Line> Client<L> {
         Ok(())
     }
 
+    /// Nothing is asked for any more: zero set-points go out at the next turn, whatever was told before. Time that
+    /// passed unheard, as in a process that was suspended, does not count.
+    pub(super) fn zero(&mut self) {
+        (self.ask, self.told, self.heard_at) = (None, (1, 1), self.line.now());
+    }
+
     /// The velocity that is safe now, mm/s and °/s.
     fn wanted(&mut self) -> (i32, i32) {
         let now = self.line.now();
@@ -221,6 +233,8 @@ impl<L: Line> Client<L> {
             return (0, 0);
         }
         if self.falls_silent(now) {
+            // What was asked for before the silence is not taken up after it.
+            self.ask = None;
             return (0, 0);
         }
         let (speed, why) = guarded_speed(ask.linear, &self.report);
@@ -232,7 +246,7 @@ impl<L: Line> Client<L> {
         ((speed * 1000.0) as i32, ask.angular.to_degrees().round() as i32)
     }
 
-    /// Whether the robot has not reported for so long that it would be driven blind; said when it begins and ends.
+    /// Whether the robot has not reported for so long that it would be driven blind; said when it begins.
     fn falls_silent(&mut self, now: Duration) -> bool {
         let cycle = Duration::from_millis(u64::from(self.config.sip_cycle_ms.unwrap_or(100)));
         let silence = SILENCE.max(cycle * SILENT_CYCLES);

@@ -84,6 +84,9 @@ impl<'a, L: Line> Handshake<'a, L> {
     }
 
     /// Reaches the robot, at whatever rate it talks.
+    ///
+    /// # Errors
+    /// When no robot answers at any rate, or not as the protocol says.
     pub fn run(&mut self) -> Result<Identity, HandshakeError> {
         let before = self.decoder.counters();
         let mut heard = None;

@@ -1,6 +1,8 @@
 //! A serial line, opened for us alone.
 
+use std::fs::File;
 use std::io::{self, Read, Write};
+use std::os::fd::{AsFd, OwnedFd};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -21,15 +23,21 @@ pub struct SerialLine {
     fixed: Option<u32>,
     baud: u32,
     port: Option<TTYPort>,
+    /// The same device, opened before it was ours alone: for another process.
+    second: Option<File>,
     opened: Instant,
 }
 
 impl SerialLine {
     /// Opens a device, 8N1, raw, without flow control, refusing to share it.
+    ///
+    /// # Errors
+    /// When there is no such device, or someone else has it open.
     pub fn open(device: &Path, baud: Option<u32>) -> io::Result<Self> {
         let baud_now = baud.unwrap_or(BAUD_RATES[0]);
-        let port = open_port(device, baud_now)?;
-        Ok(Self { device: device.to_path_buf(), fixed: baud, baud: baud_now, port: Some(port), opened: Instant::now() })
+        let (second, port) = open_port(device, baud_now)?;
+        let (device, opened) = (device.to_path_buf(), Instant::now());
+        Ok(Self { device, fixed: baud, baud: baud_now, port: Some(port), second: Some(second), opened })
     }
 
     fn port(&mut self) -> io::Result<&mut TTYPort> {
@@ -38,19 +46,21 @@ impl SerialLine {
     }
 }
 
-fn open_port(device: &Path, baud: u32) -> io::Result<TTYPort> {
+fn open_port(device: &Path, baud: u32) -> io::Result<(File, TTYPort)> {
     // What the library says of a device it cannot open depends on its version: ask the system first.
-    let file = std::fs::OpenOptions::new().read(true).write(true).open_nonblocking(device);
-    if !rustix::termios::isatty(&file.map_err(|error| explain(device, error))?) {
+    let second = std::fs::OpenOptions::new().read(true).write(true).open_nonblocking(device);
+    let second = second.map_err(|error| explain(device, error))?;
+    if !rustix::termios::isatty(&second) {
         let text = format!("no serial line ({})", present_devices());
         return Err(io::Error::new(io::ErrorKind::InvalidInput, text));
     }
     let name = device.to_string_lossy();
-    serialport::new(name, baud).timeout(WRITE_WITHIN).open_native().map_err(|error| match error.kind() {
+    let port = serialport::new(name, baud).timeout(WRITE_WITHIN).open_native().map_err(|error| match error.kind() {
         ErrorKind::Io(kind) => explain(device, io::Error::new(kind, error.description)),
         ErrorKind::NoDevice => busy(device, &error.description),
         _ => io::Error::other(error.description),
-    })
+    })?;
+    Ok((second, port))
 }
 
 trait OpenNonblocking {
@@ -166,8 +176,10 @@ impl Line for SerialLine {
     }
 
     fn reopen(&mut self) -> io::Result<()> {
-        self.port = None;
-        self.port = Some(open_port(&self.device, self.baud)?);
+        // As long as anyone holds the device it stays closed to whoever opens it anew.
+        (self.port, self.second) = (None, None);
+        let (second, port) = open_port(&self.device, self.baud)?;
+        (self.second, self.port) = (Some(second), Some(port));
         Ok(())
     }
 
@@ -186,6 +198,10 @@ impl Line for SerialLine {
 
     fn baud_is_fixed(&self) -> bool {
         self.fixed.is_some()
+    }
+
+    fn share(&self) -> io::Result<OwnedFd> {
+        self.second.as_ref().ok_or(io::ErrorKind::NotConnected)?.as_fd().try_clone_to_owned()
     }
 
     fn name(&self) -> String {
