@@ -5,18 +5,18 @@ cd "$(dirname "$0")/.."
 disk=$(mktemp -d)
 mount -t tmpfs -o size=64k tmpfs "$disk"
 frames=$(mktemp -d)
-trap 'umount "$disk"; rm -r "$disk" "$frames"' EXIT
+complaint=$(mktemp)
+trap 'umount "$disk"; rm -r "$disk" "$frames" "$complaint"' EXIT
 
 said=$(seq 2000 | sed 's/.*/the mug is in the bedroom on the table by the chairs/')
 chunked=$(chunk <<< "$said")
 full() {
     local code=0
-    "$@" 2> /tmp/said.$$ || code=$?
-    if [ "$code" != 1 ] || ! grep -q 'the disk is full' /tmp/said.$$ || [ -n "$(ls -A "$disk")" ]; then
-        echo "$*: exit $code, said: $(cat /tmp/said.$$), left: $(ls -A "$disk")" >&2
+    "$@" 2> "$complaint" || code=$?
+    if [ "$code" != 1 ] || ! grep -q 'the disk is full' "$complaint" || [ -n "$(ls -A "$disk")" ]; then
+        echo "$*: exit $code, said: $(cat "$complaint"), left: $(ls -A "$disk")" >&2
         exit 1
     fi
-    rm -f /tmp/said.$$
 }
 full chunk -o "$disk/out.jsonl" <<< "$said"
 full ground -o "$disk/out.jsonl" <<< "$chunked"

@@ -14,7 +14,7 @@ use spatial_fetch::map::RoomMap;
 use spatial_fetch::perception::Detector;
 use spatial_fetch::record::{Plan, Record};
 use spatial_fetch::recording::records;
-use spatial_fetch::simulation::{Home, Perception, Settings, stream_of};
+use spatial_fetch::simulation::{Home, Perception, TrialSettings, stream_of};
 
 const SENTENCE: &str = "the mug is in the bedroom on the table next to the chairs\n";
 
@@ -77,7 +77,7 @@ fn seen_and_recorded(folder: &Path) -> (Vec<Value>, String) {
     let record = Record::parse(&planned).expect("a record");
     let plan: Plan = record.require("plan", "").expect("a plan");
     let home = Home::load(None, None).expect("the apartment");
-    let settings = Settings { perception: Perception::Camera, seed: 2, ..Settings::default() };
+    let settings = TrialSettings { perception: Perception::Camera, seed: 2, ..TrialSettings::default() };
     let mut witness = Witness { detector: Detector::default(), map: home.map.clone(), seen: Vec::new() };
     let stream = stream_of(&record.id().expect("an id"));
     spatial_fetch::simulation::run(&home, &plan, &settings, stream, &mut witness);
@@ -90,7 +90,7 @@ fn perceive_sees_in_the_log_what_the_robot_saw_and_one_room_when_fused() {
     let folder = tempfile::tempdir().expect("a folder");
     let (seen, log) = seen_and_recorded(folder.path());
     let map = "fixtures/apartment.map.json";
-    let again = run("perceive", &["--map", map, &log], "").expect_code(0).records();
+    let again = run("perceive", &["--least-confidence", "0", "--map", map, &log], "").expect_code(0).records();
     assert!(seen.len() > 10, "{} looks", seen.len());
     let again: Vec<&Value> = again.iter().map(|record| &record["detections"]).collect();
     assert_eq!(again, seen.iter().collect::<Vec<_>>());
@@ -190,7 +190,8 @@ fn what_the_camera_showed_is_perceived_again_from_the_log() {
         serde_json::from_str::<serde_json::Value>(&line).expect("JSON")["detections"].take()
     };
     let seen: Vec<_> = records(&log, "/fetch/seen").expect("a log").into_iter().map(detections).collect();
-    let again = run("perceive", &["--map", "apartment", log.to_str().expect("UTF-8")], "").expect_code(0);
+    let again = run("perceive", &["--least-confidence", "0", "--map", "apartment", log.to_str().expect("UTF-8")], "");
+    let again = again.expect_code(0);
     let again: Vec<_> = again.out.lines().map(str::to_string).map(detections).collect();
     assert!(seen.len() > 3 && again == seen, "{again:?} instead of {seen:?}");
 }

@@ -46,6 +46,6 @@ pub use localizer::Localizer;
 pub use pilot::{Halt, grid_of};
 pub use relation::Place;
 pub use route::{length, route};
-pub use trial_record::{Run, object_of, plan_of, rounded};
+pub use trial_record::{Run, note_of, object_of, plan_of, rounded};
 pub use trial_text::{row_of, shade_of, text_of};
 pub use watcher::{Several, Silent, Watcher};

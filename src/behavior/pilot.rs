@@ -236,6 +236,9 @@ impl<'a> Pilot<'a> {
     }
 
     /// Turns through `half_angle` to both sides of the present heading, looking every 30°, and comes back.
+    ///
+    /// # Errors
+    /// When the robot is stopped or held fast, its time is up or its link lost.
     pub fn sweep(&mut self, half_angle: f64) -> Result<(), Halt> {
         let ahead = self.pose().heading;
         let looks = (half_angle / (PI / 6.0)).round().max(1.0) as i32;
@@ -264,7 +267,7 @@ impl<'a> Pilot<'a> {
         if self.watcher.wants_stop() {
             return Err(Halt::Stopped);
         }
-        self.idle.passed((linear, angular), self.base.velocity(), time_s)?;
+        self.idle.passed((linear, angular), self.base.velocity(), time_s).map_err(Halt::Stuck)?;
         if time_s > self.time_limit_s { Err(Halt::Timeout) } else { Ok(()) }
     }
 }

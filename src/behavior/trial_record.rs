@@ -2,7 +2,7 @@
 
 use crate::geometry::{Pose, Vec2};
 use crate::map::RoomMap;
-use crate::record::{Action, Plan, Record, Rounded, StageError, Trial};
+use crate::record::{Action, Note, Outcome, Plan, Record, Rounded, StageError, Trial};
 
 /// A trial with what its files want to know beside the record.
 #[derive(Clone, Debug)]
@@ -18,6 +18,9 @@ pub struct Run {
 }
 
 /// The plan of a record, made for this home.
+///
+/// # Errors
+/// When there is no plan, it is none, or it was made for another map.
 pub fn plan_of(record: &Record, map: &RoomMap) -> Result<Plan, StageError> {
     let plan: Plan = record.require_part("pipe the record through `plan` first")?;
     if plan.map != map.name {
@@ -34,6 +37,17 @@ pub fn object_of(plan: &Plan) -> Option<&str> {
         Action::Find { object } => object.as_deref(),
         _ => None,
     })
+}
+
+/// How a stage did that ran this trial: a robot that looked everywhere in vain was driven, one that could not be driven
+/// to the end of its plan was not, and whoever waits for the program's exit code hears of it.
+pub fn note_of(trial: &Trial) -> Note {
+    match trial.outcome {
+        Outcome::LinkLost | Outcome::Stopped | Outcome::Stuck => {
+            Note::Lossy(format!("the robot was not driven to the end of its plan: {}", trial.why))
+        }
+        Outcome::Found | Outcome::Arrived | Outcome::NotFound | Outcome::Blocked | Outcome::Timeout => Note::Done,
+    }
 }
 
 /// A pose as records hold it.

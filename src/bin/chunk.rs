@@ -38,7 +38,7 @@ impl Arguments {
     /// Lines, records of a log, or rows of tables.
     fn source(&self) -> Result<Box<dyn Source<Line>>, Failure> {
         if let Some(column) = &self.csv {
-            return Ok(Box::new(CsvLines::new(Inputs::new(&self.common.files), column)));
+            return Ok(Box::new(CsvLines::new(Inputs::new(&self.common.files, self.common.keep_going), column)));
         }
         let is_table = |file: &&PathBuf| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
         if let Some(table) = self.common.files.iter().find(is_table) {
@@ -46,7 +46,7 @@ impl Arguments {
                 format!("{}: to read a table, name the column of its descriptions: --csv COLUMN", table.display());
             return Err(Failure::Usage(message));
         }
-        self.log.lines(&self.common.files, "/fetch/input")
+        self.log.lines(&self.common, "/fetch/input")
     }
 }
 

@@ -86,7 +86,9 @@ impl Source<Line> for CsvLines {
     }
 
     fn lost(&mut self) -> Vec<Diagnostic> {
-        std::mem::take(&mut self.lost)
+        let mut lost = self.inputs.lost();
+        lost.append(&mut self.lost);
+        lost
     }
 
     fn total(&self) -> Option<u64> {

@@ -3,6 +3,7 @@
 use std::io::{self, IsTerminal, Write};
 
 use super::{Common, Line};
+use crate::escape::{for_line, for_terminal};
 
 /// A message about one place of the input.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,12 +40,15 @@ impl Reporter {
 
     /// Reports what went wrong with a record.
     pub fn error(&self, diagnostic: &Diagnostic) {
-        self.line("31", &format!("{}: {}{}", diagnostic.place, diagnostic.message, id_suffix(diagnostic)));
+        self.line("31", &format!("{}: {}{}", for_line(&diagnostic.place), diagnostic.message, id_suffix(diagnostic)));
     }
 
     /// Reports what was lost on the way.
     pub fn warning(&self, diagnostic: &Diagnostic) {
-        self.line("33", &format!("{}: warning: {}{}", diagnostic.place, diagnostic.message, id_suffix(diagnostic)));
+        self.line(
+            "33",
+            &format!("{}: warning: {}{}", for_line(&diagnostic.place), diagnostic.message, id_suffix(diagnostic)),
+        );
     }
 
     /// Reports what ended the run.
@@ -55,7 +59,7 @@ impl Reporter {
     /// What a record came to, as it is asked for: without the program's name before each line.
     pub fn tell(&self, text: &str) {
         // Nowhere left to complain when standard error is closed.
-        let _ = io::stderr().lock().write_all(format!("{text}\n").as_bytes());
+        let _ = io::stderr().lock().write_all(format!("{}\n", for_terminal(text)).as_bytes());
     }
 
     /// A remark that `--quiet` leaves out.
@@ -66,7 +70,7 @@ impl Reporter {
     }
 
     fn line(&self, color: &str, message: &str) {
-        let program = self.program;
+        let (program, message) = (self.program, for_terminal(message));
         let text = if self.color {
             format!("\x1b[{color}m{program}:\x1b[0m {message}\n")
         } else {

@@ -9,6 +9,7 @@ use super::foreign::foreign;
 use super::paint::painted;
 use super::rows::Rows;
 use super::{Common, Diagnostic, Exit, Failure, Format, Inputs, Line, Progress, Reporter, Source, open_output};
+use crate::escape::for_terminal;
 use crate::record::{Note, Record, Row, Shade, Stage, StageError};
 
 /// Enough lines to keep the cores busy, few enough to answer soon.
@@ -41,11 +42,18 @@ enum Output {
 }
 
 /// Runs `stage` over all lines of the files, or of standard input.
+///
+/// # Errors
+/// When a file cannot be read, the output cannot be written, or a record cannot be processed and no one said to go on.
 pub fn run_filter(program: &'static str, common: &Common, intake: Intake, stage: &dyn Stage) -> Result<Exit, Failure> {
-    run_filter_on(program, common, &mut Inputs::new(&common.files), intake, stage)
+    run_filter_on(program, common, &mut Inputs::new(&common.files, common.keep_going), intake, stage)
 }
 
 /// Runs `stage` over all lines of `lines`.
+///
+/// # Errors
+/// When the lines cannot be read, the output cannot be written, or a record cannot be processed and no one said to go
+/// on.
 pub fn run_filter_on(
     program: &'static str,
     common: &Common,
@@ -149,6 +157,9 @@ fn process(line: &Line, intake: Intake, style: Style, stage: &dyn Stage) -> Outc
 }
 
 /// The record on a line; none on a blank one.
+///
+/// # Errors
+/// When the line is no JSON object, with the column.
 pub fn record_of(line: &Line, intake: Intake) -> Result<Option<Record<'_>>, Diagnostic> {
     if let Some((offset, message)) = foreign(&line.bytes, line.number == 1) {
         return Err(Diagnostic::at(line, offset, None, message));
@@ -168,9 +179,9 @@ fn parse<'line>(line: &Line, text: &'line str, intake: Intake) -> Result<Record<
                 format!("this reads like the heading of a table; its descriptions are read by --csv '{column}'");
             return Err(Diagnostic::at(line, 0, None, message));
         }
-        return Ok(Record::from_text(&line.ordinal.to_string(), text.trim()));
+        return Ok(Record::from_text(&line.ordinal.to_string(), text.trim()).at(line.ordinal));
     }
-    Record::parse(text).map_err(|error| {
+    Record::parse(text).map(|record| record.at(line.ordinal)).map_err(|error| {
         let mut message = crate::record::message_without_position(&error);
         if error.is_eof() && !line.terminated {
             message.push_str("; the input ends in the middle of this record");
@@ -232,7 +243,7 @@ pub(super) fn finish(
 
 /// The record as text, unless there is none; coloured where that is wanted.
 fn for_people(stage: &dyn Stage, record: &Record, style: Style) -> Result<Option<Output>, StageError> {
-    let text = stage.text(record)?;
+    let text = for_terminal(&stage.text(record)?).into_owned();
     let is_said = record.raw("text").is_some();
     let shade = |number, line: &str| if number == 0 && is_said { Shade::Said } else { stage.shade(line) };
     let text = if style.color { painted(&text, shade) } else { text };

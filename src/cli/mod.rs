@@ -37,7 +37,7 @@ pub use filter::{Intake, record_of, run_filter, run_filter_on};
 pub use frame_input::{FrameInput, FrameItem, FrameLogs, See, run_frames};
 pub use home::HomeArguments;
 pub use input::{Inputs, read_file};
-pub use interrupt::on_interrupt;
+pub use interrupt::{Pause, on_interrupt, on_suspend};
 pub use line::Line;
 pub use log_input::FromLog;
 pub use number::within;
@@ -50,4 +50,4 @@ pub use scores::{
 };
 pub use source::Source;
 pub use threads::{counted_on_threads, on_threads};
-pub use trial_options::{DELAY_S, OptionsError, TIME_LIMIT_S, TrialOptions};
+pub use trial_options::{DEAD_TIME_S, JITTER_S, OptionsError, TIME_LIMIT_S, TrialOptions};

@@ -34,11 +34,17 @@ pub struct SharedSink(Arc<Mutex<Sink>>);
 
 impl SharedSink {
     /// Writes whole lines and hands them on at once.
+    ///
+    /// # Errors
+    /// When the output takes no more.
     pub fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
         self.with(|sink| sink.write(bytes))
     }
 
     /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// When the file cannot be put in its place.
     pub fn finish(&self) -> Result<(), Failure> {
         self.with(Sink::finish)
     }
@@ -75,12 +81,23 @@ impl SharedSink {
 }
 
 /// Opens what `--output` names, or standard output.
+///
+/// # Errors
+/// When the file exists and is not to be overwritten, or its folder cannot be written to.
 pub fn open_output(common: &Common) -> Result<SharedSink, Failure> {
     let sink = match &common.output {
         None => Sink { name: "standard output".to_string(), target: Target::Stream(Box::new(io::stdout())) },
+        Some(path) if is_standard_output(path) => {
+            Sink { name: path.display().to_string(), target: Target::Stream(Box::new(io::stdout())) }
+        }
         Some(path) => Sink { name: path.display().to_string(), target: open_file(path, common.force)? },
     };
     Ok(SharedSink(Arc::new(Mutex::new(sink))))
+}
+
+/// The names by which the system knows standard output, whatever it is: a file behind it is not to be replaced.
+fn is_standard_output(path: &Path) -> bool {
+    ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
 }
 
 /// Whether whoever read standard output has gone.

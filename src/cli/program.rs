@@ -7,7 +7,7 @@ use clap::{Parser, ValueEnum};
 use clap_complete::Shell;
 use schemars::Schema;
 
-use super::interrupt::yield_to_interrupt;
+use super::interrupt::{listen, yield_to_interrupt};
 use super::{Common, Exit, Failure, Reporter, exit};
 
 /// A binary: its arguments, what it adds to a record, and its work.
@@ -37,6 +37,7 @@ pub fn command_of<P: Program>() -> clap::Command {
 
 /// Parses the arguments, runs the binary, reports how it ended.
 pub fn main<P: Program>() -> ExitCode {
+    listen();
     if let Some(text) = about_itself::<P>() {
         return exit::code(&print(&text));
     }

@@ -3,6 +3,9 @@
 use super::{Common, Failure, Progress, on_interrupt};
 
 /// Does `work` with its parallel parts on so many threads; 0 is one for each core.
+///
+/// # Errors
+/// When the threads cannot be started, or what `work` answers.
 pub fn on_threads<T: Send>(jobs: usize, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     // Nothing is open yet that would have to be closed: an interrupt wants the exit code only.
     on_interrupt(|| ());
@@ -12,6 +15,9 @@ pub fn on_threads<T: Send>(jobs: usize, work: impl FnOnce() -> T + Send) -> Resu
 }
 
 /// The same, counted on standard error: `work` calls what it is given once for each of the `total` things done.
+///
+/// # Errors
+/// When the threads cannot be started, or what `work` answers.
 pub fn counted_on_threads<T: Send>(
     common: &Common,
     total: u64,

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::escape::for_markup;
 use crate::geometry::{Pose, Vec2};
 
 /// Pixels a metre.
@@ -118,7 +119,7 @@ impl Canvas {
         self.put(format_args!(
             r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0} {height:.0}" width="{width:.0}" height="{height:.0}" role="img" font-family="sans-serif">"#
         ));
-        self.put(format_args!("<title>{}</title>", escaped(title)));
+        self.put(format_args!("<title>{}</title>", for_markup(title)));
         self.put(format_args!("<style>.wall{{stroke:#333;stroke-width:4;stroke-linecap:square}}.item{{fill:#e8dcc8;stroke:#8a7350;stroke-width:1.5}}.found{{fill:#cfe8cf;stroke:#2e7d32;stroke-width:2.5}}.path{{fill:none;stroke:#c2185b;stroke-width:2.2;stroke-linecap:round}}.tick{{stroke:#c2185b;stroke-width:1.1;opacity:.5}}.label{{font-size:12px;fill:#4a3c22;text-anchor:middle}}.room{{font-size:17px;fill:#b9bcc2;text-anchor:middle}}.title{{font-size:16px;fill:#111}}.caption{{font-size:13px;fill:#555}}.front{{stroke:#8a7350;stroke-width:4}}.visit{{fill:#c2185b}}.number{{font-size:11px;font-weight:bold;fill:#fff;text-anchor:middle}}.lay{{fill:none;stroke:#1565c0;stroke-width:2.5}}.object{{font-size:12px;fill:#1565c0}}</style>"));
         self.put(format_args!(r##"<rect width="100%" height="100%" fill="#fff"/>"##));
     }
@@ -126,10 +127,10 @@ impl Canvas {
     fn title(&mut self, lines: &[String], caption: &str) {
         for (i, line) in lines.iter().enumerate() {
             let y = MARGIN + 4.0 + 20.0 * i as f64;
-            self.put(format_args!(r#"<text class="title" x="{MARGIN}" y="{y}">{}</text>"#, escaped(line)));
+            self.put(format_args!(r#"<text class="title" x="{MARGIN}" y="{y}">{}</text>"#, for_markup(line)));
         }
         let y = MARGIN + 4.0 + 20.0 * lines.len() as f64;
-        self.put(format_args!(r#"<text class="caption" x="{MARGIN}" y="{y}">{}</text>"#, escaped(caption)));
+        self.put(format_args!(r#"<text class="caption" x="{MARGIN}" y="{y}">{}</text>"#, for_markup(caption)));
     }
 
     fn line(&mut self, a: Vec2, b: Vec2, class: &str) {
@@ -139,7 +140,7 @@ impl Canvas {
 
     fn text(&mut self, at: Vec2, text: &str, class: &str) {
         let (x, y) = self.xy(at);
-        self.put(format_args!(r#"<text class="{class}" x="{x}" y="{:.1}">{}</text>"#, y + 4.0, escaped(text)));
+        self.put(format_args!(r#"<text class="{class}" x="{x}" y="{:.1}">{}</text>"#, y + 4.0, for_markup(text)));
     }
 
     fn furniture(&mut self, outline: &Outline) {
@@ -177,7 +178,7 @@ impl Canvas {
         let (x, y) = self.xy(at);
         self.put(format_args!(r#"<circle class="lay" cx="{x}" cy="{y}" r="9"/>"#));
         if named {
-            let name = escaped(&name.replace('_', " "));
+            let name = for_markup(&name.replace('_', " "));
             self.put(format_args!(r#"<text class="object" x="{:.1}" y="{:.1}">{name}</text>"#, x + 12.0, y - 8.0));
         }
     }
@@ -236,7 +237,7 @@ impl Canvas {
                 r#"<text class="caption" x="{:.1}" y="{:.1}">{}</text>"#,
                 x + 18.0,
                 y + 4.0,
-                escaped(text)
+                for_markup(text)
             ));
             x += width;
         }
@@ -304,12 +305,6 @@ fn wrapped(text: &str, per_line: usize) -> Vec<String> {
         }
     }
     lines
-}
-
-/// Control characters are no XML.
-fn escaped(text: &str) -> String {
-    let text = text.chars().filter(|c| !c.is_control()).collect::<String>();
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use super::frame_stream::Tell;
 use crate::behavior::{
-    Executive, Furniture, Options, Run, Several, Silent, Watcher, object_of, plan_of, rounded, row_of, shade_of,
-    text_of,
+    Executive, Furniture, Options, Run, Several, Silent, Watcher, note_of, object_of, plan_of, rounded, row_of,
+    shade_of, text_of,
 };
 use crate::frame::{Camera, RgbdFrame};
 use crate::geometry::{ClearanceGrid, Pose};
@@ -110,8 +110,10 @@ impl RealDriver {
         self.robot.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
-        let failed = |error: String| StageError::new(error);
+    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<Note, StageError> {
+        let failed = |error: &dyn std::fmt::Display| StageError::new(error.to_string());
+        let name = record.file_name();
+        self.outputs.prepare(&name, id).map_err(|error| failed(&error))?;
         let mut robot = self.robot();
         let Robot { base, eyes } = &mut *robot;
         base.begin_trial();
@@ -123,7 +125,7 @@ impl RealDriver {
             settings: format!("{:?}", self.options),
             record,
         };
-        let recorder = Recorder::begin(&self.outputs, id, &about).map_err(|error| failed(error.to_string()))?;
+        let recorder = Recorder::begin(&self.outputs, &name, &about).map_err(|error| failed(&error))?;
         let (mut narrator, mut story) = (self.outputs.narrator(id, record), self.outputs.story());
         let mut audience = Several::default();
         narrator.iter_mut().for_each(|narrator| audience.0.push(narrator));
@@ -143,17 +145,18 @@ impl RealDriver {
         drop(log);
         narrator.iter().for_each(|narrator| narrator.end(&run.trial));
         let picture = eyes.frame().map(RgbdFrame::color_png);
-        self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, id)?;
+        let mut lost = self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, &name);
         record.put(&run.trial);
-        let line = serde_json::to_string(record).map_err(|error| failed(error.to_string()))?;
+        let line = serde_json::to_string(record).map_err(|error| failed(&error))?;
         if let Some(story) = story {
             let thumbnail = eyes.frame().map(RgbdFrame::thumbnail_png);
             self.outputs.tell(Told { line: line.clone(), run: run.clone(), picture: thumbnail, story });
         }
-        let Some(recorder) = recorder else { return Ok(()) };
-        recorder
-            .finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line)
-            .map_err(|error| failed(error.to_string()))
+        if let Some(recorder) = recorder {
+            let written = recorder.finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line);
+            lost.extend(written.err().map(|error| error.to_string()));
+        }
+        Ok(note_of(&run.trial).and(lost))
     }
 }
 
@@ -275,7 +278,7 @@ impl Stage for RealDriver {
         self.busy.set(true);
         let driven = self.drive(record, &plan, &id);
         self.busy.set(false);
-        driven.map(|()| Note::Done)
+        driven
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {

@@ -20,11 +20,11 @@
 //! assert_eq!(histogram.values()[2], 0.0);
 //! ```
 
+mod axes;
 mod between;
 mod boxes;
 mod degree;
 mod describe;
-mod frame;
 mod gap;
 mod histogram;
 mod input;
@@ -44,15 +44,15 @@ mod surround;
 mod validity;
 mod wording;
 
+pub use axes::{Axes, Words};
 pub use between::between;
 pub use degree::{DegreeOfTruth, degree_of_truth};
 pub use describe::Description;
-pub use frame::{Frame, Words};
 pub use histogram::Histogram;
 pub use kernel::{Force, Infinite};
 pub use main_direction::main_direction;
-pub use name::{ForceName, FrameName};
-pub use relation::Relation;
+pub use name::{AxesName, ForceName};
+pub use relation::RelativePosition;
 pub use shape::Shape;
 pub use shape_error::ShapeError;
 pub use stage::{Describer, Pictures};

@@ -2,7 +2,7 @@
 
 use super::ShapeError;
 use super::validity::{self, Ring};
-use crate::geometry::{Polygon, Vec2, cross, vec2};
+use crate::geometry::{Polygon, Vec2, cross, ring, vec2};
 use crate::limits::SHAPE_CORNERS;
 
 /// An areal object: outer rings counter-clockwise, holes clockwise.
@@ -17,7 +17,16 @@ impl Shape {
         Self { rings: vec![oriented(ring.into_iter().map(|[x, y]| vec2(x, y)).collect(), true)] }
     }
 
+    /// A shape of rings that may share borders, counter-clockwise, unchecked.
+    #[cfg(test)]
+    pub(super) fn of_cells(rings: Vec<Vec<Vec2>>) -> Self {
+        Self { rings }
+    }
+
     /// A shape from polygons as GeoJSON has them: for each part its closed outer ring, then closed rings of holes.
+    ///
+    /// # Errors
+    /// What is wrong with the first bad ring, by its number.
     pub fn from_parts(parts: &[Vec<Vec<[f64; 2]>>]) -> Result<Self, ShapeError> {
         let corners = parts.iter().flatten().map(Vec::len).sum();
         SHAPE_CORNERS.check(corners).map_err(ShapeError::TooMany)?;
@@ -32,8 +41,8 @@ impl Shape {
             return Err(ShapeError::Empty);
         }
         validity::check(&rings)?;
-        for (i, ring) in rings.iter().enumerate() {
-            if signed_area(&ring.corners) == 0.0 {
+        for (i, bounded) in rings.iter().enumerate() {
+            if ring::area(ring::edges(&bounded.corners), Vec2::zeros()) == 0.0 {
                 return Err(ShapeError::NoArea(i + 1));
             }
         }
@@ -42,21 +51,17 @@ impl Shape {
 
     /// The edges, each with the object's interior on its left.
     pub fn edges(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
-        self.rings.iter().flat_map(|ring| (0..ring.len()).map(move |i| (ring[i], ring[(i + 1) % ring.len()])))
+        self.rings.iter().flat_map(|corners| ring::edges(corners))
     }
 
     /// Square units.
     pub fn area(&self) -> f64 {
-        let origin = self.corner();
-        self.edges().map(|(a, b)| cross(a - origin, b - origin)).sum::<f64>() / 2.0
+        ring::area(self.edges(), self.corner())
     }
 
     /// Whether a point lies inside.
     pub fn contains(&self, point: Vec2) -> bool {
-        let crossings = self.edges().filter(|(a, b)| {
-            (a.y > point.y) != (b.y > point.y) && point.x < (b.x - a.x) * (point.y - a.y) / (b.y - a.y) + a.x
-        });
-        crossings.count() % 2 == 1
+        ring::surrounds(self.edges(), point)
     }
 
     /// The rings, outer ones counter-clockwise, holes clockwise.
@@ -71,19 +76,12 @@ impl Shape {
 
     /// The lowest and highest x and y.
     pub fn bounds(&self) -> (Vec2, Vec2) {
-        let start = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
-        self.rings.iter().flatten().fold(start, |(low, high), c| (low.inf(c), high.sup(c)))
+        ring::bounds(self.rings.iter().flatten())
     }
 
     /// The centre of area.
     pub fn centroid(&self) -> Vec2 {
-        let origin = self.corner();
-        let (mut sum, mut doubled_area) = (Vec2::zeros(), 0.0);
-        for (a, b) in self.edges().map(|(a, b)| (a - origin, b - origin)) {
-            sum += (a + b) * cross(a, b);
-            doubled_area += cross(a, b);
-        }
-        origin + sum / (3.0 * doubled_area)
+        ring::centroid(self.edges(), self.corner())
     }
 }
 
@@ -107,12 +105,8 @@ fn checked(ring: &[[f64; 2]], number: usize) -> Result<Vec<Vec2>, ShapeError> {
     if on_a_line { Err(ShapeError::NoArea(number)) } else { Ok(corners) }
 }
 
-fn signed_area(corners: &[Vec2]) -> f64 {
-    (0..corners.len()).map(|i| cross(corners[i], corners[(i + 1) % corners.len()])).sum()
-}
-
 fn oriented(mut corners: Vec<Vec2>, counter_clockwise: bool) -> Vec<Vec2> {
-    if (signed_area(&corners) > 0.0) != counter_clockwise {
+    if (ring::area(ring::edges(&corners), Vec2::zeros()) > 0.0) != counter_clockwise {
         corners.reverse();
     }
     corners

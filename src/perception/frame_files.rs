@@ -130,6 +130,9 @@ fn no_pose(why: NoPose) -> FrameError {
 ///
 /// A wrong scale would make everything one plane, and a pose that is none
 /// would put furniture into the walls.
+///
+/// # Errors
+/// Which number is wrong, and what it should be.
 pub fn check(frame: &RgbdFrame) -> Result<(), FrameError> {
     let wrong = |what: String| Err(FrameError::Wrong(what));
     if !(1e-5..=1.0).contains(&frame.depth_unit_m) {

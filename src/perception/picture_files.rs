@@ -16,6 +16,9 @@ pub(super) struct PictureFile {
 
 impl PictureFile {
     /// Reads the file and the picture's head.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is no picture of a known kind.
     pub fn open(path: PathBuf) -> Result<Self, FrameError> {
         let unreadable = |what: String| FrameError::Unreadable(path.display().to_string(), what);
         let bytes = PICTURE_FILE_BYTES.read(&path).map_err(|error| unreadable(error.to_string()))?;
@@ -24,6 +27,9 @@ impl PictureFile {
     }
 
     /// Requires the size that something `other` has.
+    ///
+    /// # Errors
+    /// When the sizes differ.
     pub fn require_size(&self, other: &'static str, size: (usize, usize)) -> Result<(), FrameError> {
         if self.size == size {
             return Ok(());
@@ -33,11 +39,17 @@ impl PictureFile {
     }
 
     /// The depth, in units of the file, row by row.
+    ///
+    /// # Errors
+    /// When the picture is damaged, or holds no depth.
     pub fn depth(&self) -> Result<Vec<u16>, FrameError> {
         self.pixels(decode_depth)
     }
 
     /// The colours, row by row.
+    ///
+    /// # Errors
+    /// When the picture is damaged, or holds no colours.
     pub fn color(&self) -> Result<Vec<[u8; 3]>, FrameError> {
         self.pixels(decode_color)
     }

@@ -55,6 +55,16 @@ pub enum Note {
     Lossy(String),
 }
 
+impl Note {
+    /// The same, and what else was lost.
+    pub fn and(self, mut lost: Vec<String>) -> Self {
+        if let Self::Lossy(what) = self {
+            lost.insert(0, what);
+        }
+        if lost.is_empty() { Self::Done } else { Self::Lossy(lost.join("; ")) }
+    }
+}
+
 /// Why a stage could not do its work on one record.
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]

@@ -58,7 +58,7 @@ pub use outputs::{Outputs, TruePiece, spoken};
 pub use parts::{Parts, recordings};
 pub use record_reader::{RecordReader, records};
 pub use recorder::{About, OPTIONS_TOPIC, Recorder};
-pub use shapes::Piece;
+pub use shapes::ShownPiece;
 pub use story::{BelievedPiece, Stories, Story, Told};
 pub use time::nanoseconds;
 pub use timed_frame::TimedFrame;

@@ -10,6 +10,9 @@ use crate::map::checker::{Checker, TOLERANCE_M, nearest_name};
 use crate::map::{Room, RoomMap, WorldError};
 
 /// Checks a scene against its room map.
+///
+/// # Errors
+/// What is wrong with the first wrong item, and what mends it.
 pub fn check(scene: &Scene, map: &RoomMap, file: &str) -> Result<(), WorldError> {
     let checker = Checker { file };
     checker.version(scene.version)?;

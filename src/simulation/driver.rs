@@ -1,11 +1,11 @@
 //! `drive` as a stage of the pipeline.
 
 use super::missing::missing;
-use super::{Home, Settings, run, stream_of};
-use crate::behavior::{Run, Several, Watcher, plan_of, row_of, shade_of, text_of};
+use super::{Home, TrialSettings, run, stream_of};
+use crate::behavior::{Run, Several, Watcher, note_of, plan_of, row_of, shade_of, text_of};
 use crate::frame::RgbdFrame;
 use crate::record::{Note, Plan, Record, Row, Shade, Stage, StageError};
-use crate::recording::{About, LogError, Outputs, Recorder, Told};
+use crate::recording::{About, Outputs, Recorder, Told};
 
 /// Runs the plan of each record in a home.
 #[derive(Clone, Debug)]
@@ -13,7 +13,7 @@ pub struct Driver {
     /// Where.
     pub home: Home,
     /// How.
-    pub settings: Settings,
+    pub settings: TrialSettings,
     /// What to leave beside the record.
     pub outputs: Outputs,
     /// Whether what the home does not have is looked for all the same.
@@ -21,8 +21,10 @@ pub struct Driver {
 }
 
 impl Driver {
-    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
-        let failed = |error: LogError| StageError::new(error.to_string());
+    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<Note, StageError> {
+        let failed = |error: &dyn std::fmt::Display| StageError::new(error.to_string());
+        let name = record.file_name();
+        self.outputs.prepare(&name, id).map_err(|error| failed(&error))?;
         let truth = self.home.pieces();
         let about = About {
             map: &self.home.map,
@@ -32,7 +34,7 @@ impl Driver {
             settings: format!("{:?}", self.settings),
             record,
         };
-        let mut recorder = Recorder::begin(&self.outputs, id, &about).map_err(failed)?;
+        let mut recorder = Recorder::begin(&self.outputs, &name, &about).map_err(|error| failed(&error))?;
         if let Some(recorder) = &mut recorder {
             recorder.options(&self.outputs.options);
             self.outputs.pace.into_iter().for_each(|times| recorder.keep_pace(times));
@@ -48,15 +50,18 @@ impl Driver {
         let wants_picture = recorder.is_some() || story.is_some() || self.outputs.picture.is_some();
         let picture = wants_picture.then(|| self.home.take_picture(run.final_pose));
         let png = picture.as_ref().map(RgbdFrame::color_png);
-        self.outputs.leave((&self.home.map, &truth), &mut run, png.as_deref(), record, id)?;
+        let mut lost = self.outputs.leave((&self.home.map, &truth), &mut run, png.as_deref(), record, &name);
         record.put(&run.trial);
-        let line = || serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()));
+        let line = || serde_json::to_string(record).map_err(|error| failed(&error));
         if let Some(story) = story {
             let thumbnail = picture.as_ref().map(RgbdFrame::thumbnail_png);
             self.outputs.tell(Told { line: line()?, run: run.clone(), picture: thumbnail, story });
         }
-        let (Some(recorder), Some(png)) = (recorder, png) else { return Ok(()) };
-        recorder.finish(run.trial.duration_s.0, png, &line()?).map_err(failed)
+        if let (Some(recorder), Some(png)) = (recorder, png) {
+            let written = recorder.finish(run.trial.duration_s.0, png, &line()?);
+            lost.extend(written.err().map(|error| error.to_string()));
+        }
+        Ok(note_of(&run.trial).and(lost))
     }
 
     /// Runs a plan, unless the home does not have what it looks for.
@@ -70,8 +75,7 @@ impl Stage for Driver {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
         let plan = plan_of(record, &self.home.map)?;
         let id = record.id().unwrap_or_else(|| "record".to_string());
-        self.drive(record, &plan, &id)?;
-        Ok(Note::Done)
+        self.drive(record, &plan, &id)
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {

@@ -4,7 +4,7 @@ use super::base::{Obstacles, SimulatedBase};
 use super::eyes::{eyes, is_recognisable};
 use super::judge::judge;
 use super::naming::Naming;
-use super::{Home, Settings};
+use super::{Home, TrialSettings};
 use crate::behavior::{Executive, Report, Watcher};
 use crate::behavior::{Run, object_of, rounded};
 use crate::geometry::Pose;
@@ -12,7 +12,7 @@ use crate::record::{Outcome, PathPoint, Plan, Trial};
 use crate::robot::MobileBase;
 
 /// Runs `plan` in `home`. `stream` picks the record's own random numbers under the seed ([`super::stream_of`]).
-pub fn run(home: &Home, plan: &Plan, settings: &Settings, stream: u64, watcher: &mut dyn Watcher) -> Run {
+pub fn run(home: &Home, plan: &Plan, settings: &TrialSettings, stream: u64, watcher: &mut dyn Watcher) -> Run {
     let noise = settings.noise_in(home.scene.noise.unwrap_or_default());
     let obstacles = Obstacles::new(&home.map, &home.scene);
     let mut base = SimulatedBase::with_noise(obstacles, home.map.start, noise, settings.seed, stream);

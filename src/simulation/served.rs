@@ -12,7 +12,7 @@ use rand_chacha::rand_core::SeedableRng;
 use super::arcos::{ServeAddress, Server, ServerSettings, serve_at};
 use super::base::{Obstacles, SimulatedBase};
 use super::camera::{Kinect, SolidScene};
-use super::{Home, Settings};
+use super::{Home, TrialSettings};
 use crate::frame::{inverse, placed};
 use crate::geometry::Pose;
 use crate::recording::{FrameWriter, TimedFrame};
@@ -34,7 +34,7 @@ pub struct Served {
     /// Where it truly is, JSON lines.
     pub truth: Option<PathBuf>,
     /// How imperfect it and its camera are.
-    pub how: Settings,
+    pub how: TrialSettings,
 }
 
 /// Where the robot is: in truth, and by its odometry.
@@ -46,6 +46,9 @@ struct Whereabouts {
 
 impl Served {
     /// Serves the robot in `home` until `goes_on` says no; `tell` hears what happens.
+    ///
+    /// # Errors
+    /// When the address cannot be listened at, or the line fails.
     pub fn run(&self, home: &Home, mut goes_on: impl FnMut() -> bool, tell: impl Fn(&str)) -> io::Result<()> {
         let noise = self.how.noise_in(home.scene.noise.unwrap_or_default());
         let obstacles = Obstacles::new(&home.map, &home.scene);
@@ -79,7 +82,7 @@ fn note(whereabouts: &Mutex<Whereabouts>, server: &Server) {
 }
 
 /// Films on a thread of its own, so that no picture makes a packet late. Pictures bear the time of day.
-fn film(path: PathBuf, home: Home, whereabouts: Arc<Mutex<Whereabouts>>, how: Settings) -> io::Result<()> {
+fn film(path: PathBuf, home: Home, whereabouts: Arc<Mutex<Whereabouts>>, how: TrialSettings) -> io::Result<()> {
     std::thread::Builder::new().name("camera".to_string()).spawn(move || {
         // A reader that goes away ends the film, not the robot.
         let _ = roll(&path, &home, &whereabouts, how);
@@ -87,7 +90,7 @@ fn film(path: PathBuf, home: Home, whereabouts: Arc<Mutex<Whereabouts>>, how: Se
     Ok(())
 }
 
-fn roll(path: &Path, home: &Home, whereabouts: &Mutex<Whereabouts>, how: Settings) -> Result<(), String> {
+fn roll(path: &Path, home: &Home, whereabouts: &Mutex<Whereabouts>, how: TrialSettings) -> Result<(), String> {
     let solids = SolidScene::new(&home.map, &home.scene);
     let kinect = Kinect { camera: home.camera(), ..how.kinect };
     let mut rng = ChaCha8Rng::seed_from_u64(how.seed);

@@ -8,7 +8,7 @@ use crate::behavior::Options;
 
 /// Everything about a trial that is neither home nor plan.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Settings {
+pub struct TrialSettings {
     /// What the executive may do.
     pub options: Options,
     /// What the robot's eyes report.
@@ -64,7 +64,7 @@ impl NoiseLevel {
     }
 }
 
-impl Settings {
+impl TrialSettings {
     /// The noise of the robot in a world that has `usual`.
     pub fn noise_in(&self, usual: Noise) -> Noise {
         let noise = self.noise.of(usual);

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use clap::Args;
 use spatial_fetch::cli::{Common, Failure, Reporter, within};
 use spatial_fetch::evaluation::write_trials;
-use spatial_fetch::files::refuse_existing;
+use spatial_fetch::files::{Claims, refuse_existing};
 use spatial_fetch::map::RoomMap;
 use spatial_fetch::recording::{Live, Narration, Outputs, Stories, TruePiece};
 
@@ -62,7 +62,8 @@ impl Arguments {
             told.then(|| Narration { tell: Arc::new(move |text| narrator.tell(text)), figures: common.verbose > 1 });
         let stories = self.report.as_ref().map(|_| Arc::default());
         let (plot, picture, record, force) = (self.plot, self.picture, self.record, common.force);
-        Ok(Outputs { plot, picture, record, live, pace, force, options, narration, stories })
+        let claims = Claims::default();
+        Ok(Outputs { plot, picture, record, live, pace, force, claims, options, narration, stories })
     }
 }
 

@@ -1,10 +1,6 @@
 //! The frame of the page.
 
-/// Text as it may stand between tags and in attributes.
-pub(super) fn escaped(text: &str) -> String {
-    let text: String = text.chars().filter(|c| !c.is_control() || *c == '\n').collect();
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
+pub(super) use crate::escape::for_markup as escaped;
 
 /// Everything before the tables.
 pub(super) fn head(title: &str) -> String {

@@ -20,6 +20,9 @@ use crate::files::{FileError, write_file};
 use crate::simulation::Home;
 
 /// Writes `index.html` into a folder and returns its path.
+///
+/// # Errors
+/// When the folder or the file cannot be written.
 pub fn write_report(
     folder: &Path,
     paper: &Paper,
@@ -63,7 +66,7 @@ mod tests {
     use crate::evaluation::{Experiments, read_gold};
     use crate::map::RoomMap;
     use crate::simulation::Scene;
-    use crate::simulation::Settings;
+    use crate::simulation::TrialSettings;
 
     #[test]
     fn the_page_is_whole_fetches_nothing_and_cannot_be_broken_by_words() {
@@ -71,7 +74,7 @@ mod tests {
         let gold = read_gold(&text.replace("bear right", "bear<right"), "t.jsonl").expect("gold");
         let homes =
             [Scene::apartment(), Scene::apartment_modified()].map(|scene| Home::new(RoomMap::apartment(), scene));
-        let (corpus, settings) = ("<corpus>".to_string(), Settings::default());
+        let (corpus, settings) = ("<corpus>".to_string(), TrialSettings::default());
         let experiments = Experiments { corpus, gold: &gold, homes: &homes, settings, seeds: 1 };
         let page = page(&experiments.run(&|| ()), &experiments.cases(), &homes);
         assert_eq!(page.matches("<details class=\"trial\"").count(), 2);

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::image::Image;
 use super::mode::{CellState, Thresholds};
 use crate::geometry::{ClearanceGrid, Polygon, Vec2, distance_to_segment, vec2};
-use crate::limits::PICTURE_FILE_BYTES;
+use crate::limits::{HOME_INNER_WALLS, PICTURE_FILE_BYTES};
 
 /// A cell this near to a room's outline belongs to its wall, metres.
 const WALL_M: f64 = 0.25;
@@ -20,6 +20,10 @@ pub(super) struct Grid {
 }
 
 impl Grid {
+    /// Reads the image of a grid whose cells are `cell_m` metres wide.
+    ///
+    /// # Errors
+    /// When the image cannot be read or is none.
     pub fn read(path: &Path, cell_m: f64, origin: Vec2, thresholds: Thresholds) -> Result<Self, String> {
         let bytes = PICTURE_FILE_BYTES.read(path).map_err(|error| error.to_string())?;
         let Image { width, height, pixels } = Image::decode(&bytes)?;
@@ -99,9 +103,12 @@ impl Grid {
         let mut walls: Vec<[[f64; 2]; 2]> = Vec::new();
         for (x, y) in self.cells(CellState::Occupied).filter(|&(x, y)| inner(self.centre(x, y))) {
             let at = self.centre(x, y);
+            let too_many = walls.len() > HOME_INNER_WALLS.count();
             match walls.last_mut() {
                 // The next cell of the same row lengthens the segment.
                 Some([_, end]) if end[1] == at.y && (at.x - half - end[0]).abs() < 1e-6 => end[0] = at.x + half,
+                // The check of the map says how many are too many.
+                _ if too_many => break,
                 _ => walls.push([[at.x - half, at.y], [at.x + half, at.y]]),
             }
         }

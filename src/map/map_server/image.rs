@@ -32,6 +32,9 @@ pub(super) struct Pixel {
 
 impl Image {
     /// Decodes a PGM or PNG file.
+    ///
+    /// # Errors
+    /// When the bytes are neither PGM nor PNG, or fewer than their head promises.
     pub fn decode(bytes: &[u8]) -> Result<Self, String> {
         match bytes {
             [b'P', b'5', ..] => pgm(bytes, true),

@@ -62,6 +62,9 @@ pub enum Place {
 
 impl ServeAddress {
     /// Opens the place, so that clients find it.
+    ///
+    /// # Errors
+    /// When the address cannot be listened at, or the link cannot be made.
     pub fn listen(&self) -> io::Result<Place> {
         Ok(match self {
             Self::Pty(path, baud) => Place::Pty(PtyLine::create(path, *baud)?),

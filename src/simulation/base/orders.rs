@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::dice::Dice;
+use crate::simulation::Dice;
 use crate::simulation::Noise;
 
 /// Linear (m/s) and angular (rad/s) velocity.

@@ -4,13 +4,12 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::Obstacles;
-use super::dice::Dice;
 use super::ears::Ears;
 use super::orders::Orders;
 use super::wheels::{Wheels, moved};
 use crate::geometry::{Pose, angle_between, wrap_angle};
 use crate::robot::{Body, MobileBase, RobotError, SonarReading, Status, p3dx};
-use crate::simulation::Noise;
+use crate::simulation::{Dice, Noise};
 
 /// Integration step, seconds.
 const STEP_S: f64 = 0.02;
@@ -24,6 +23,8 @@ const SLACK_MARGIN_M: f64 = 0.005;
 const MOST_SLACK_M: f64 = 0.02;
 /// A robot that touched something is free again at this distance, metres.
 const FREE_AGAIN_M: f64 = 0.02;
+/// Keeps the robot's numbers apart from those of its eyes, which are drawn from the record's own stream.
+const ROBOT: u64 = 0x726f_626f_7400_0000;
 
 /// What is true of the simulated robot.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -67,14 +68,14 @@ impl SimulatedBase {
 
     /// A robot at rest that believes to be at `start`; its luck is drawn from `stream` under `seed`.
     pub fn with_noise(obstacles: Obstacles, start: Pose, noise: Noise, seed: u64, stream: u64) -> Self {
-        let mut dice = Dice::new(seed, stream);
+        let mut dice = Dice::new(seed, stream ^ ROBOT);
         let pose = Pose::new(
-            start.x + dice.normal(noise.start_m),
-            start.y + dice.normal(noise.start_m),
-            wrap_angle(start.heading + dice.normal(noise.start_rad)),
+            start.x + dice.error(noise.start_m),
+            start.y + dice.error(noise.start_m),
+            wrap_angle(start.heading + dice.error(noise.start_rad)),
         );
         let wheels = Wheels::new(&noise, &mut dice);
-        let compass_bias_rad = dice.normal(noise.compass_bias_rad);
+        let compass_bias_rad = dice.error(noise.compass_bias_rad);
         let ears = Ears::new(noise, &obstacles, pose, &mut dice);
         let truth = Truth { pose, min_clearance_m: CLEARANCE_REACH_M, ..Truth::default() };
         let mut base = Self {
@@ -188,7 +189,7 @@ impl SimulatedBase {
     }
 
     fn read_compass(&mut self) {
-        let error = self.compass_bias_rad + self.dice.normal(self.noise.compass_rad);
+        let error = self.compass_bias_rad + self.dice.error(self.noise.compass_rad);
         self.compass = wrap_angle(self.truth.borrow().pose.heading + error);
     }
 }
