@@ -197,18 +197,18 @@ pub const MESH_LAYERS: Limit = Limit {
     lifted_by: None,
 };
 
-/// Cells of a sheet, empty ones within its box included.
+/// Cells of a sheet.
 pub const SHEET_CELLS: Limit = Limit {
     name: "a sheet to import",
     value: 1 << 20,
     unit: "cells",
-    reason: "a stray cell in the last row and column would make 17 thousand million of them",
+    reason: "a file of a few bytes can claim 4 thousand million",
     lifted_by: None,
 };
 
-/// Bytes of a part of a spreadsheet file, unpacked.
+/// Bytes of all parts of a spreadsheet file, unpacked.
 pub const SHEET_PART_BYTES: Limit = Limit {
-    name: "a part of a spreadsheet, unpacked",
+    name: "a spreadsheet, unpacked",
     value: 1 << 26,
     unit: "bytes",
     reason: "a small file can unpack to any size",
@@ -269,6 +269,24 @@ pub const TRANSFORM_CHAIN: Limit = Limit {
     lifted_by: None,
 };
 
+/// Seconds that a detector of one's own may take for one frame.
+pub const DETECTOR_SECONDS: Limit = Limit {
+    name: "the answer of a --detector to one frame",
+    value: 120,
+    unit: "seconds",
+    reason: "the first frame may have to wait for a model to be loaded; a command that hangs would hold up everything",
+    lifted_by: Some("--detector-patience"),
+};
+
+/// Bytes of a detector's answer to one frame.
+pub const DETECTOR_ANSWER_BYTES: Limit = Limit {
+    name: "the answer of a --detector to one frame",
+    value: 1 << 22,
+    unit: "bytes",
+    reason: "thousands of detections fit; a flood without line ends has no end",
+    lifted_by: None,
+};
+
 /// All limits.
 pub const ALL: &[Limit] = &[
     LINE_BYTES,
@@ -300,6 +318,8 @@ pub const ALL: &[Limit] = &[
     MCAP_CHUNK_RATIO,
     MCAP_WAITING,
     TRANSFORM_CHAIN,
+    DETECTOR_SECONDS,
+    DETECTOR_ANSWER_BYTES,
 ];
 
 impl Limit {

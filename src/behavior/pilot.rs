@@ -146,7 +146,15 @@ impl<'a> Pilot<'a> {
     /// Notes a reason for the present action.
     pub fn because(&mut self, reason: impl Into<String>) {
         let reason = reason.into();
-        self.watcher.said(self.base.time_s(), &reason);
+        let plain = reason.clone();
+        self.because_plainly(reason, &plain);
+    }
+
+    /// The same, with plain words for those who look on and do not ask for figures.
+    pub fn because_plainly(&mut self, reason: String, plain: &str) {
+        let time_s = self.base.time_s();
+        self.watcher.said(time_s, &reason);
+        self.watcher.told(time_s, plain);
         self.journal.because(reason);
     }
 
@@ -159,6 +167,7 @@ impl<'a> Pilot<'a> {
     /// The present action is over.
     pub fn end(&mut self, result: &str) {
         self.watcher.said(self.base.time_s(), result);
+        self.watcher.told(self.base.time_s(), result);
         self.journal.end(result, self.base.time_s());
     }
 
@@ -258,7 +267,7 @@ impl<'a> Pilot<'a> {
         if self.watcher.wants_stop() {
             return Err(Halt::Stopped);
         }
-        self.idle.passed((linear, angular), self.base.velocity(), time_s)?;
+        self.idle.passed((linear, angular), self.base.velocity(), time_s).map_err(Halt::Stuck)?;
         if time_s > self.time_limit_s { Err(Halt::Timeout) } else { Ok(()) }
     }
 }

@@ -2,6 +2,7 @@
 
 use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
+use spatial_fetch::files::Claims;
 use spatial_fetch::force::{AxesName, Describer, ForceName, Pictures, raster::Fuzzy};
 
 /// Histogram of forces: where is A, seen from B?
@@ -39,7 +40,7 @@ impl Program for Arguments {
     }
     fn run(self) -> Result<Exit, Failure> {
         let Self { forces, directions, frame, fuzzy, svg, common } = self;
-        let pictures = svg.map(|folder| Pictures { folder, overwrite: common.force });
+        let pictures = svg.map(|folder| Pictures { folder, overwrite: common.force, claims: Claims::default() });
         let stage = Describer { forces, directions: directions as usize, frame, fuzzy, pictures };
         let intake = Intake::Own(r#"`hof` reads two shapes a line, {"a": …, "b": …}; see --help"#);
         cli::run_filter(Self::NAME, &common, intake, &stage)

@@ -184,7 +184,7 @@ pub const CATEGORIES: &[Category] = &[
     Category {
         name: "table",
         noun: "table",
-        also_called: &["stand", "bedstand"],
+        also_called: &["stand", "bedstand", "kitchen_table"],
         size: size(0.75, 1.2, 0.74),
         attributes: &["brown"],
         alike: &["table", "dinner_table", "desk", "coffee_table", "nightstand"],
@@ -236,6 +236,7 @@ pub const CATEGORIES: &[Category] = &[
     Category {
         name: "chair",
         noun: "chair",
+        also_called: &["folding_chair", "deck_chair", "rocking_chair", "highchair"],
         size: size(0.44, 0.57, 0.82),
         attributes: &["brown"],
         alike: &["chair", "armchair", "stool"],
@@ -246,6 +247,7 @@ pub const CATEGORIES: &[Category] = &[
     Category {
         name: "armchair",
         noun: "armchair",
+        also_called: &["recliner"],
         shape: FurnitureShape::Couch,
         size: size(0.75, 0.85, 0.9),
         color: CLOTH,
@@ -258,7 +260,7 @@ pub const CATEGORIES: &[Category] = &[
     Category {
         name: "stool",
         noun: "stool",
-        also_called: &["ottoman"],
+        also_called: &["ottoman", "footstool", "music_stool", "step_stool", "bench"],
         shape: FurnitureShape::Stool,
         size: size(0.36, 0.36, 0.45),
         attributes: &["small", "brown"],
@@ -272,7 +274,7 @@ pub const CATEGORIES: &[Category] = &[
     Category {
         name: "couch",
         noun: "couch",
-        also_called: &["sofa"],
+        also_called: &["sofa", "sofa_bed", "futon", "chaise_longue", "loveseat"],
         class: FurnitureClass::Couch,
         shape: FurnitureShape::Couch,
         size: size(0.73, 2.06, 0.92),
@@ -286,6 +288,7 @@ pub const CATEGORIES: &[Category] = &[
     Category {
         name: "bed",
         noun: "bed",
+        also_called: &["bunk_bed"],
         class: FurnitureClass::Bed,
         shape: FurnitureShape::Bed,
         size: size(2.0, 1.1, 0.55),
@@ -310,7 +313,7 @@ pub const CATEGORIES: &[Category] = &[
     Category {
         name: "dresser",
         noun: "dresser",
-        also_called: &["dresser_mirror"],
+        also_called: &["dresser_mirror", "chest_of_drawers"],
         size: size(0.5, 1.2, 0.85),
         attributes: &["brown"],
         holds: Holds::Possibly,
@@ -345,6 +348,7 @@ pub const CATEGORIES: &[Category] = &[
     Category {
         name: "cabinet",
         noun: "cabinet",
+        also_called: &["cupboard", "file_cabinet"],
         size: size(0.45, 0.9, 0.9),
         attributes: &["brown"],
         holds: Holds::Possibly,
@@ -356,6 +360,7 @@ pub const CATEGORIES: &[Category] = &[
     Category {
         name: "tv_stand",
         noun: "tv_stand",
+        also_called: &["television_stand"],
         size: size(0.45, 1.4, 0.5),
         color: BLACK,
         attributes: &["black", "low"],
@@ -368,6 +373,7 @@ pub const CATEGORIES: &[Category] = &[
     Category {
         name: "lamp",
         noun: "lamp",
+        also_called: &["table_lamp", "floor_lamp"],
         class: FurnitureClass::Lamp,
         shape: FurnitureShape::Lamp,
         size: size(0.4, 0.4, 1.5),

@@ -4,10 +4,12 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use super::paint::painted;
 use super::{Common, Exit, Failure, Format, Inputs, Source, open_output, read_file};
+use crate::escape::for_terminal;
 use crate::evaluation::robustness::{Robustness, robustness_tables};
-use crate::evaluation::{Gold, Scores, read_gold, text_tables, with_texts};
-use crate::record::Record;
+use crate::evaluation::{Gold, Scores, csv_tables, read_gold, text_tables, with_texts};
+use crate::record::{Record, Shade};
 
 /// Scores with the line that stands over them.
 #[derive(Clone, Debug, Serialize)]
@@ -73,7 +75,14 @@ pub fn find_description(files: &[PathBuf], id: Option<&str>) -> Result<(String, 
 /// When the output cannot be written.
 pub fn write_report(common: &Common, report: &impl Serialize, table: impl FnOnce() -> String) -> Result<(), Failure> {
     let written = match common.format {
-        Format::Text => table(),
+        Format::Text => {
+            let shade = |number, _: &str| if number == 0 { Shade::Said } else { Shade::Plain };
+            let (text, style) = (for_terminal(&table()).into_owned(), common.style());
+            if style.color { painted(&text, shade) } else { text }
+        }
+        Format::Csv => {
+            return Err(Failure::Usage("--format csv: this has no rows; json and text are written".to_string()));
+        }
         Format::Json => serde_json::to_string(report).map_err(|e| Failure::Failed(e.to_string()))?,
     };
     write_text(common, &written)
@@ -94,7 +103,7 @@ pub fn write_text(common: &Common, text: &str) -> Result<(), Failure> {
 /// # Errors
 /// When an input cannot be read.
 pub fn read_lines(files: &[PathBuf]) -> Result<Vec<String>, Failure> {
-    let mut inputs = Inputs::new(files);
+    let mut inputs = Inputs::new(files, false);
     let mut lines = Vec::new();
     loop {
         let batch = inputs.next_batch(1024)?;
@@ -116,7 +125,10 @@ pub fn read_lines(files: &[PathBuf]) -> Result<Vec<String>, Failure> {
 /// # Errors
 /// When the output cannot be written.
 pub fn write_scores(common: &Common, table: &Table) -> Result<Exit, Failure> {
-    write_report(common, &table.scores, || text_tables(&table.title, &table.scores))?;
+    match common.format {
+        Format::Csv => write_text(common, &csv_tables(&table.scores))?,
+        _ => write_report(common, &table.scores, || text_tables(&table.title, &table.scores))?,
+    }
     let lossless =
         table.scores.missing.is_empty() && table.scores.doubled.is_empty() && table.scores.unknown.is_empty();
     Ok(if lossless { Exit::Done } else { Exit::Lost })

@@ -1,7 +1,5 @@
 //! `--jobs` and progress for work that is no filter.
 
-use std::sync::{Mutex, PoisonError};
-
 use super::{Common, Failure, Progress, on_interrupt};
 
 /// Does `work` with its parallel parts on so many threads; 0 is one for each core.
@@ -25,7 +23,7 @@ pub fn counted_on_threads<T: Send>(
     total: u64,
     work: impl FnOnce(&(dyn Fn() + Sync)) -> T + Send,
 ) -> Result<T, Failure> {
-    let progress = Mutex::new(Progress::new(common, Some(total)));
-    let done = || progress.lock().unwrap_or_else(PoisonError::into_inner).add(1);
+    let progress = Progress::new(common, Some(total));
+    let done = || progress.add(1);
     on_threads(common.jobs, || work(&done))
 }

@@ -18,8 +18,10 @@ use crate::simulation::{NoiseLevel, Perception};
 /// Seconds of robot time that a trial may take.
 pub const TIME_LIMIT_S: RangeInclusive<f64> = 0.0..=1e6;
 
-/// Seconds of dead time, and of its jitter, that the simulated base may have.
-pub const DELAY_S: RangeInclusive<f64> = 0.0..=1.5;
+/// Seconds after which the simulated robot does what it is told, and so many more at most.
+pub const DEAD_TIME_S: RangeInclusive<f64> = 0.0..=1.5;
+/// See there.
+pub const JITTER_S: RangeInclusive<f64> = 0.0..=0.5;
 
 /// They bear the names of the command line, with `_` for `-`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -119,10 +121,10 @@ impl TrialOptions {
             ("depth_loss", self.depth_loss, DEPTH_LOSS),
             ("light", self.light, LIGHT),
             ("time_limit", self.time_limit, TIME_LIMIT_S),
+            ("dead_time", self.dead_time.unwrap_or(0.0), DEAD_TIME_S),
+            ("jitter", self.jitter.unwrap_or(0.0), JITTER_S),
         ];
-        let delays = [("dead_time", self.dead_time), ("jitter", self.jitter)];
-        let delays = delays.into_iter().filter_map(|(name, value)| Some((name, value?, DELAY_S)));
-        for (name, value, range) in numbers.into_iter().chain(delays) {
+        for (name, value, range) in numbers {
             in_range(value, &range).map_err(|why| OptionsError::Value(name, why))?;
         }
         for (name, home) in [("world", &self.world), ("map", &self.map)] {
@@ -253,6 +255,7 @@ mod tests {
     #[test]
     fn the_list_is_that_of_the_fields() {
         let all = TrialOptions { world: Some(String::new()), map: Some(String::new()), ..usual() };
+        let all = TrialOptions { dead_time: Some(0.1), jitter: Some(0.0), ..all };
         assert_eq!(named(&all).keys().collect::<Vec<_>>(), NAMES.iter().collect::<Vec<_>>());
     }
 

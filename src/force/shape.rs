@@ -17,6 +17,12 @@ impl Shape {
         Self { rings: vec![oriented(ring.into_iter().map(|[x, y]| vec2(x, y)).collect(), true)] }
     }
 
+    /// A shape of rings that may share borders, counter-clockwise, unchecked.
+    #[cfg(test)]
+    pub(super) fn of_cells(rings: Vec<Vec<Vec2>>) -> Self {
+        Self { rings }
+    }
+
     /// A shape from polygons as GeoJSON has them: for each part its closed outer ring, then closed rings of holes.
     ///
     /// # Errors

@@ -9,7 +9,8 @@ use super::polygon::{histograms, hybrid};
 use super::raster::{Fuzzy, Raster, RasterPair};
 use super::rose::picture;
 use super::{Axes, AxesName, Description, Force, ForceName, Histogram, Infinite, RelativePosition};
-use crate::files::write_file;
+use crate::escape::for_file_name;
+use crate::files::{Claims, write_file};
 use crate::record::{DegreeOfTruth, Hof, HofForce, Note, Record, Stage, StageError};
 
 /// Where pictures go: each to `FOLDER/ID.svg`.
@@ -19,6 +20,8 @@ pub struct Pictures {
     pub folder: PathBuf,
     /// Whether files that exist may go.
     pub overwrite: bool,
+    /// Which of them belong to which record of this run.
+    pub claims: Claims,
 }
 
 /// Computes histograms of forces for records that hold two shapes, `a` and `b`, and describes where `a` is of `b`.
@@ -111,10 +114,9 @@ impl Describer {
 
 impl Pictures {
     fn save(&self, id: &str, svg: &str) -> Result<(), String> {
-        let plain = |c: char| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' };
-        let name: String = id.chars().map(plain).collect();
         std::fs::create_dir_all(&self.folder).map_err(|error| format!("{}: {error}", self.folder.display()))?;
-        let path = self.folder.join(format!("{name}.svg"));
+        let path = self.folder.join(format!("{}.svg", for_file_name(id)));
+        self.claims.claim(&path, id).map_err(|error| error.to_string())?;
         write_file(&path, svg.as_bytes(), self.overwrite).map_err(|error| error.to_string())
     }
 }

@@ -98,11 +98,10 @@ fn jpeg_decoder(bytes: &[u8]) -> Result<JpegDecoder<ZCursor<&[u8]>>, String> {
 
 fn decode_jpeg(bytes: &[u8]) -> Result<Picture<[u8; 3]>, String> {
     let (width, height) = picture_size(bytes)?;
-    // The decoder does without the end where all pixels are there; but a file is cut off anywhere, or zeros follow.
-    if !has_jpeg_end(bytes) {
-        return Err("a JPEG without its end: it is cut off".to_string());
-    }
-    let buffer = jpeg_decoder(bytes)?.decode().map_err(|e| format!("a damaged JPEG: {e:?}"))?;
+    let end = jpeg_end(bytes).ok_or("a JPEG without its end: it is cut off")?;
+    let open = is_of_one_scan(bytes).then(|| [&bytes[..end], &[0; READ_AHEAD]].concat());
+    let buffer = jpeg_decoder(open.as_deref().unwrap_or(bytes))?.decode();
+    let buffer = buffer.map_err(|e| format!("a damaged JPEG: {e:?}"))?;
     let pixels = buffer.as_chunks::<3>().0.to_vec();
     if pixels.len() != width * height {
         return Err(format!("a JPEG of {width} × {height} with {} pixels", pixels.len()));
@@ -110,11 +109,23 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Picture<[u8; 3]>, String> {
     Ok(Picture { width, height, pixels })
 }
 
-/// Whether the marker of a JPEG's end stands behind its last scan; cameras may write bytes behind it, and a thumbnail in
+/// How far the decoder reads ahead, bytes.
+const READ_AHEAD: usize = 16;
+
+/// Where the marker of a JPEG's end stands behind its last scan; cameras may write bytes behind it, and a thumbnail in
 /// the head has an end of its own.
-fn has_jpeg_end(bytes: &[u8]) -> bool {
+fn jpeg_end(bytes: &[u8]) -> Option<usize> {
     let last_scan = bytes.windows(2).rposition(|pair| pair == b"\xff\xda").unwrap_or(0);
-    bytes[last_scan..].windows(2).any(|pair| pair == b"\xff\xd9")
+    bytes[last_scan..].windows(2).position(|pair| pair == b"\xff\xd9").map(|at| last_scan + at)
+}
+
+/// Whether a JPEG is a baseline one of a single scan, as cameras write them.
+///
+/// Behind the end's marker the decoder makes up grey for pixels that are missing. Without the marker it says that the
+/// data are exhausted; but only where one scan holds everything does it do without.
+fn is_of_one_scan(bytes: &[u8]) -> bool {
+    let has = |marker: &[u8; 2]| bytes.windows(2).any(|pair| pair == marker);
+    bytes.windows(2).filter(|pair| pair == b"\xff\xda").count() == 1 && has(b"\xff\xc0") && !has(b"\xff\xc2")
 }
 
 #[cfg(test)]
@@ -161,11 +172,15 @@ mod tests {
 
     #[test]
     fn a_jpeg_that_ends_before_its_last_pixel_is_refused() {
-        let mut bytes = SMALL.to_vec();
-        let scan = bytes.windows(2).position(|pair| pair == b"\xff\xda").expect("a scan");
-        let end = bytes.len() - 2;
-        bytes.drain(scan + 14 + (end - scan - 14) / 2..end);
-        assert!(decode_color(&bytes).is_err());
+        // 64 × 48 pixels of noise, so that each takes bytes.
+        let noise = include_bytes!("../../fixtures/hostile/noise.jpg");
+        assert!(decode_color(noise).is_ok());
+        let scan = noise.windows(2).position(|pair| pair == b"\xff\xda").expect("a scan") + 14;
+        for share in 1..8 {
+            let mut bytes = noise.to_vec();
+            bytes.drain(scan + (noise.len() - scan) * share / 8..noise.len() - 2);
+            assert!(decode_color(&bytes).is_err(), "{share} of 8");
+        }
     }
 
     #[test]

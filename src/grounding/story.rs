@@ -38,6 +38,8 @@ struct Heard {
     strength: u8,
     /// The node that was open when it was named.
     node: Option<usize>,
+    /// It was told to be somewhere, not only mentioned.
+    told: bool,
 }
 
 struct Story<'r> {
@@ -567,6 +569,10 @@ impl<'r> Story<'r> {
             }
             let one_of_others = noun.article == Article::Indefinite && matches!(phrase.act, Act::State | Act::There);
             self.hear(noun, if one_of_others { 1 } else { strength });
+            let alone = phrase.act == Act::State && noun.past == phrase.past && phrase.first == noun.first;
+            if let Some(heard) = self.heard.last_mut() {
+                heard.told = !alone;
+            }
         }
         if phrase.noun().is_some_and(|noun| !noun.generic) {
             self.last = phrase.noun().map(|noun| self.name(noun));
@@ -577,7 +583,10 @@ impl<'r> Story<'r> {
             self.open = None;
         }
         if phrase.act == Act::State || phrase.act == Act::There {
-            self.delivering = false;
+            // "Bring it to Dad, he's on the balcony": that is where it goes.
+            let told_of = matches!(self.reading.units[phrase.first].lower.as_ref(), "he" | "she" | "they");
+            let person = self.destination.recipient.as_ref().is_some_and(|name| name != "speaker");
+            self.delivering = told_of && person && !names;
             if names {
                 self.open = self.open.filter(|_| self.target_goes_on(phrase));
             }
@@ -603,7 +612,7 @@ impl<'r> Story<'r> {
             attributes: attributes_of(noun, units),
             score: known.into(),
         };
-        self.heard.push(Heard { slot, strength, node: self.open });
+        self.heard.push(Heard { slot, strength, node: self.open, told: true });
     }
 
     fn person(&self, unit: usize) -> String {
@@ -642,9 +651,19 @@ impl<'r> Story<'r> {
                     Some(name) => name,
                     None => continue,
                 },
-                _ if noun.generic => continue,
+                _ if noun.generic || noun.class == Some(Class::Opening) => continue,
                 _ => name_of(noun, &self.reading.units, false),
             };
+            // "A table, well, not a table, a nightstand": it is taken back.
+            let nodes = &mut self.grounding.nodes;
+            if let Some(at) = nodes.iter().rposition(|node| node.target.as_deref() == Some(name.as_str())) {
+                nodes[at].target = None;
+                if nodes[at].pairs.is_empty() {
+                    nodes.remove(at);
+                }
+                self.open = None;
+                continue;
+            }
             if !self.grounding.not.iter().any(|known| known.name == name) {
                 self.grounding.not.push(RuledOut { name });
             }
@@ -691,7 +710,7 @@ impl<'r> Story<'r> {
                 || !requested && most == 3 && self.are_told_together(&other.slot, &chosen.slot);
             if together && !listed {
                 self.grounding.also.push(other.slot.clone());
-            } else if !requested && most > 1 {
+            } else if !requested && most > 1 && other.told {
                 self.add_company(other);
             }
         }

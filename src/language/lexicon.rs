@@ -118,7 +118,7 @@ impl Lexicon {
         let class = if *name == "wall" { Class::Wall } else { class };
         self.name_noun(name, class, None, split(fields.get(2)).chain([name.replace('_', " ")]), known, replace)?;
         for other in split(fields.get(3)) {
-            let own = other.replace(' ', "_");
+            let own = other.replace([' ', '-'], "_");
             self.name_noun(&own, class, Some((*name).to_string()), [other].into_iter(), known, replace)?;
         }
         Ok(())

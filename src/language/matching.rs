@@ -194,10 +194,12 @@ impl<'u, 't> Text<'u, 't> {
                 caught.side = noun.side.or(caught.side);
                 Some(noun.past)
             }
-            Part::Bare => self
-                .noun(at)
-                .filter(|noun| noun.article == Article::None && matches!(noun.class, Some(Class::Object)))
-                .map(|noun| noun.past),
+            Part::Bare => {
+                let bare = |noun: &&NounPhrase| noun.article == Article::None && noun.class == Some(Class::Object);
+                let noun = self.noun(at).filter(bare)?;
+                (caught.noun, caught.list_past) = (Some(at), noun.past);
+                Some(noun.past)
+            }
             Part::Person => self.person(at, caught),
             Part::Relation => {
                 let (relation, past) = self.relation(at)?;

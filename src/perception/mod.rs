@@ -11,6 +11,7 @@
 //! The executive sees only [`Eyes`]. What it sees comes from pictures only: nothing here can name the scene, and the
 //! eyes of the simulated robot are in `simulation::eyes`.
 
+mod answer;
 mod beyond;
 mod describe;
 pub(crate) mod detector;
@@ -27,6 +28,7 @@ pub(crate) mod items;
 pub(crate) mod joining;
 pub(crate) mod measures;
 pub(crate) mod model;
+mod network;
 pub mod objects;
 mod overlay;
 pub(crate) mod parts;
@@ -42,6 +44,7 @@ pub(crate) mod tabletop;
 pub(crate) mod upright;
 pub(crate) mod walls;
 
+pub use answer::{Answer, Mask, PictureBox};
 pub use detector::{Detector, furniture_chance};
 pub use external::{ExternalDetector, ExternalError};
 pub use frame_error::FrameError;

@@ -3,9 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::answer::Answer;
 use super::external::ExternalDetector;
+use super::network::joined;
 use super::{Detector, FrameFiles, ObjectSighting, Told, View, check, furniture_chance, overlay};
-use crate::files::write_file;
+use crate::escape::for_file_name;
+use crate::files::{Claims, write_file};
 use crate::frame::RgbdFrame;
 use crate::map::RoomMap;
 use crate::record::{CameraPose, Detection, Note, PoseSource, Record, Rounded, Stage, StageError};
@@ -17,8 +20,10 @@ pub struct Perceiver {
     pub folder: PathBuf,
     /// What finds furniture.
     pub detector: Detector,
-    /// A command that finds it instead.
+    /// A command that finds it too.
     pub external: Option<Arc<ExternalDetector>>,
+    /// Whether it finds it instead.
+    pub external_only: bool,
     /// The rooms, when they are known.
     pub map: Option<RoomMap>,
     /// What is known of the camera of frames that do not tell where it was.
@@ -29,18 +34,20 @@ pub struct Perceiver {
     pub overlay: Option<PathBuf>,
     /// Whether drawings may replace older ones.
     pub force: bool,
+    /// Which drawings belong to which frame of this run.
+    pub claims: Claims,
 }
 
 impl Perceiver {
     /// What a frame shows, from whatever source it comes; `name` is that of its drawing, `from` says how its pose is known.
     ///
     /// # Errors
-    /// When the frame cannot be judged, or its drawing not be written.
-    pub fn look(&self, name: &str, frame: &RgbdFrame, from: PoseSource) -> Result<View, StageError> {
+    /// When the frame's numbers cannot be, a detector of one's own fails, or the drawing cannot be written.
+    pub fn look(&self, name: &str, frame: &RgbdFrame, from: PoseSource, record: &Record) -> Result<View, StageError> {
         check(frame).map_err(|error| StageError::new(error.to_string()))?;
         let view = match &self.external {
             None => self.detector.detect(frame, self.map.as_ref()),
-            Some(external) => external_view(external, frame)?,
+            Some(external) => self.joined(external, frame, record)?,
         };
         let furniture = view.furniture.into_iter().filter(|piece| is_surely(piece, self.least_confidence)).collect();
         let view = View { furniture, ..view };
@@ -57,8 +64,16 @@ impl Perceiver {
         self.add(name.as_deref().unwrap_or("frame"), frame, from, record)
     }
 
+    /// What the forests and the command find together.
+    fn joined(&self, external: &ExternalDetector, frame: &RgbdFrame, record: &Record) -> Result<View, StageError> {
+        let answer = ask(external, frame, record)?;
+        let map = self.map.as_ref();
+        let own = if self.external_only { View::default() } else { self.detector.detect(frame, map) };
+        Ok(View { furniture: joined(&self.detector, (frame, map), answer, own.furniture), ..own })
+    }
+
     fn add(&self, name: &str, frame: &RgbdFrame, from: PoseSource, record: &mut Record) -> Result<Note, StageError> {
-        let view = self.look(name, frame, from)?;
+        let view = self.look(name, frame, from, record)?;
         record.set("camera", &CameraPose::new(frame.world_from_camera, from));
         record.put(&view.furniture);
         record.set("objects", &view.objects.into_iter().map(rounded).collect::<Vec<_>>());
@@ -67,12 +82,11 @@ impl Perceiver {
 
     fn draw(&self, name: &str, frame: &RgbdFrame, view: &View, from: PoseSource) -> Result<(), StageError> {
         let Some(folder) = &self.overlay else { return Ok(()) };
-        let plain: String =
-            name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect();
         let written =
             std::fs::create_dir_all(folder).map_err(|error| StageError::new(format!("{}: {error}", folder.display())));
         written?;
-        let path = folder.join(format!("{plain}.png"));
+        let path = folder.join(format!("{}.png", for_file_name(name)));
+        self.claims.claim(&path, name).map_err(|error| StageError::new(error.to_string()))?;
         write_file(&path, &overlay(frame, view, &caption(frame, from)), self.force)
             .map_err(|error| StageError::new(error.to_string()))
     }
@@ -107,17 +121,31 @@ fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "frame".to_string(), |stem| stem.to_string_lossy().to_string())
 }
 
+/// Asks the command: the frame's own record, with the camera that was found.
+///
 /// Frames may come from a recording, so the pictures are always handed over as files of their own.
-fn external_view(external: &ExternalDetector, frame: &RgbdFrame) -> Result<View, StageError> {
-    let failed = |error: &dyn std::fmt::Display| StageError::new(format!("--detector: {error}"));
-    let folder = tempfile::tempdir().map_err(|error| failed(&error))?;
-    let (rgb, depth) = (folder.path().join("rgb.png"), folder.path().join("depth.png"));
-    write_file(&rgb, &frame.color_png(), true).map_err(|error| failed(&error))?;
+fn ask(external: &ExternalDetector, frame: &RgbdFrame, record: &Record) -> Result<Answer, StageError> {
+    let answer = external.detect(|number| handed(external.pictures(), frame, record, number));
+    answer.map_err(|error| StageError::new(error.to_string()))
+}
+
+/// The line that hands over a frame under a number, to be repeated in the answer; its pictures take the place of those
+/// of the frame before.
+fn handed(folder: &Path, frame: &RgbdFrame, record: &Record, number: u64) -> Result<String, String> {
+    let failed = |error: &dyn std::fmt::Display| error.to_string();
+    let (rgb, depth) = (folder.join("rgb.png"), folder.join("depth.png"));
     write_file(&depth, &frame.depth_png(), true).map_err(|error| failed(&error))?;
-    let handed = FrameFiles::of(frame, rgb, depth);
-    let line = serde_json::to_string(&handed).map_err(|error| failed(&error))?;
-    let furniture = external.detect(&line).map_err(|error| StageError::new(error.to_string()))?;
-    Ok(View { furniture, objects: Vec::new() })
+    let has_color = !frame.color.is_empty();
+    if has_color {
+        write_file(&rgb, &frame.color_png(), true).map_err(|error| failed(&error))?;
+    }
+    let handed = FrameFiles { rgb: has_color.then_some(rgb), ..FrameFiles::of(frame, depth.clone(), depth) };
+    let handed = serde_json::to_value(&handed).map_err(|error| failed(&error))?;
+    // What the frame's line says of its pictures is of other files; everything else it says is handed on.
+    let mut line = record.without(&["rgb", "depth", "mask", "camera_height", "camera_tilt"]);
+    line.set("number", &number);
+    handed.as_object().into_iter().flatten().for_each(|(key, value)| line.set(key, value));
+    serde_json::to_string(&line).map_err(|error| failed(&error))
 }
 
 impl Stage for Perceiver {

@@ -4,6 +4,7 @@ use super::{Item, Noise, PlacedObject, Scene};
 use crate::catalogue::CATEGORIES;
 use crate::frame::CameraMount;
 use crate::geometry::{Polygon, distance_to_segment, vec2};
+use crate::language::{Class, Lexicon};
 use crate::limits::{HOME_COORDINATE_M, ITEM_SIZE_M, SCENE_ITEMS, SCENE_OBJECTS};
 use crate::map::checker::{Checker, TOLERANCE_M, nearest_name};
 use crate::map::{Room, RoomMap, WorldError};
@@ -169,12 +170,27 @@ fn check_object(checker: &Checker, scene: &Scene, object: &PlacedObject) -> Resu
         let message = format!("lies on `{}`, which is no furniture of the scene; {mend}", object.on);
         return Err(checker.wrong(&name, message));
     };
+    check_name(checker, object, &name)?;
     let numbers = [object.forward, object.left].iter().all(|v| v.abs() <= ITEM_SIZE_M.value as f64)
         && object.yaw_deg.abs() <= MOST_DEG;
     checker.require(numbers, &name, || "forward, left and yaw_deg must be numbers".to_string())?;
     let on_top = holder.footprint().contains(object.pose_on(holder).position());
     checker.require(on_top, &name, || {
         format!("lies beside `{}`, not on it; bring `forward` and `left` nearer to 0", object.on)
+    })
+}
+
+/// An object is called by a name that sentences can mean it by.
+fn check_name(checker: &Checker, object: &PlacedObject, item: &str) -> Result<(), WorldError> {
+    let (lexicon, words) = (Lexicon::embedded(), object.name.replace('_', " "));
+    let known = lexicon.noun(&words);
+    checker.require(known.is_none_or(|noun| noun.class == Class::Object), item, || {
+        format!("`{}` is furniture or a room to whoever says it; give it the name of a small thing", object.name)
+    })?;
+    let meant = lexicon.mended(&words).filter(|noun| known.is_none() && noun.class == Class::Object);
+    checker.require(meant.is_none(), item, || {
+        let meant = meant.map_or("", |noun| noun.name.as_str());
+        format!("`{}` is no name that sentences are read by; did you mean `{meant}`?", object.name)
     })
 }
 

@@ -63,6 +63,8 @@ impl Home {
             noun: item.kind().noun.to_string(),
             corners: item.footprint().corners().to_vec(),
             height: item.size().height,
+            front: item.has_front().then_some(item.pose().heading),
+            holds: self.scene.objects_on(item).map(|o| (o.name.clone(), o.pose_on(item).position())).collect(),
         };
         self.scene.furniture.iter().map(piece).collect()
     }

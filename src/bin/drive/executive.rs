@@ -40,6 +40,7 @@ impl Arguments {
             no_fallback: self.no_fallback,
             no_glance: self.no_glance,
             no_localization: self.no_localization,
+            describe: true,
             time_limit_s: self.time_limit,
         }
     }

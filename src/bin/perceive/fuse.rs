@@ -4,8 +4,9 @@ use rayon::prelude::*;
 use spatial_fetch::cli::{
     self, Common, Diagnostic, Exit, Failure, Format, FrameInput, FrameItem, Line, Reporter, Source, open_output,
 };
+use spatial_fetch::escape::for_terminal;
 use spatial_fetch::perception::{Perceiver, SceneView, Scenes, scene_of};
-use spatial_fetch::record::StageError;
+use spatial_fetch::record::{Record, StageError};
 
 /// Looks at every frame and writes one record a scene, in the order in which scenes first appear.
 pub fn run(common: &Common, input: FrameInput, perceiver: &Perceiver) -> Result<Exit, Failure> {
@@ -20,8 +21,10 @@ pub fn run(common: &Common, input: FrameInput, perceiver: &Perceiver) -> Result<
     let sink = open_output(common)?;
     for scene in gathering.scenes.fused() {
         let text = match common.format {
-            Format::Json => serde_json::to_string(&scene).map_err(|error| Failure::Failed(error.to_string()))?,
-            Format::Text => scene.text(),
+            Format::Json | Format::Csv => {
+                serde_json::to_string(&scene).map_err(|error| Failure::Failed(error.to_string()))?
+            }
+            Format::Text => for_terminal(&scene.text()).into_owned(),
         };
         sink.write(format!("{text}\n").as_bytes())?;
     }
@@ -74,7 +77,7 @@ fn look_at_line(perceiver: &Perceiver, line: &Line) -> Result<Option<SceneView>,
     let Some(record) = cli::record_of(line, super::INTAKE)? else { return Ok(None) };
     let view = || -> Result<SceneView, StageError> {
         let (name, frame, from) = perceiver.frame_of(&record)?;
-        let view = perceiver.look(&name, &frame, from)?;
+        let view = perceiver.look(&name, &frame, from, &record)?;
         let said = record.get::<String>("scene")?;
         Ok(SceneView::new(said.unwrap_or_else(|| scene_of(&name).to_string()), name, &frame, view))
     };
@@ -84,7 +87,9 @@ fn look_at_line(perceiver: &Perceiver, line: &Line) -> Result<Option<SceneView>,
 /// A log is one scene.
 fn look_at_item(perceiver: &Perceiver, item: &FrameItem) -> Result<SceneView, Diagnostic> {
     let (name, frame) = (item.ordinal.to_string(), &item.timed.frame);
-    let view = perceiver.look(&name, frame, item.timed.pose_from);
+    let mut record = Record::default();
+    record.set("frame", &item.name());
+    let view = perceiver.look(&name, frame, item.timed.pose_from, &record);
     let place = format!("{}: frame {name}", item.file);
     view.map(|view| SceneView::new(item.file.clone(), name, frame, view)).map_err(|error| Diagnostic {
         place,

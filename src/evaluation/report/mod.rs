@@ -4,12 +4,16 @@
 //! and a content policy forbids it to fetch anything.
 
 mod html;
+mod shown;
 mod tables;
+mod told;
 mod trial;
 
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
+
+pub use told::write_trials;
 
 use super::{Case, Paper};
 use crate::files::{FileError, write_file};
@@ -32,6 +36,16 @@ pub fn write_report(
     Ok(path)
 }
 
+/// What the trials of a corpus can be narrowed by.
+const CHOICES: &[html::Choice] = &[
+    html::RESULTS,
+    ("home", "Furniture", &[("original", "as it was"), ("moved", "moved")]),
+    ("form", "Form", &[("how", "how"), ("where", "where")]),
+    ("names", "Furniture named", &[("none", "none"), ("table-only", "table only"), ("other", "other as well")]),
+];
+const NOTE: &str = "Each is read from its text and driven with the first seed; failures come first. Open one to see its way, \
+    what the camera showed at the end, and how its words were read.";
+
 /// The page; the same experiments give the same bytes.
 fn page(paper: &Paper, cases: &[Case], homes: &[Home; 2]) -> String {
     let mut order: Vec<&Case> = cases.iter().collect();
@@ -40,7 +54,7 @@ fn page(paper: &Paper, cases: &[Case], homes: &[Home; 2]) -> String {
     let trials: Vec<String> = order.par_iter().map(|case| trial::section(case, &homes[case.arrangement])).collect();
     let mut page = html::head(&format!("{}: {} trials", paper.corpus, cases.len()));
     page.push_str(&tables::section(paper));
-    page.push_str(&html::filter(cases.len()));
+    page.push_str(&html::filter(cases.len(), CHOICES, NOTE));
     page.push_str(&trials.concat());
     page.push_str(html::FOOT);
     page

@@ -1,5 +1,6 @@
 use super::*;
 use crate::force::{Shape, polygon};
+use crate::geometry::vec2;
 
 /// The same object as cells and as rectangles, one for each cell.
 fn both(rows: &[&str]) -> (Raster, Shape) {
@@ -8,10 +9,10 @@ fn both(rows: &[&str]) -> (Raster, Shape) {
     for (row, cells) in rows.iter().enumerate() {
         for (column, _) in cells.chars().enumerate().filter(|(_, cell)| *cell == '#') {
             let (x, y) = (column as f64, (height - row - 1) as f64);
-            parts.push(vec![vec![[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0], [x, y]]]);
+            parts.push(vec![vec2(x, y), vec2(x + 1.0, y), vec2(x + 1.0, y + 1.0), vec2(x, y + 1.0)]);
         }
     }
-    (Raster::from_rows(rows, 1.0).expect("a grid"), Shape::from_parts(&parts).expect("cells"))
+    (Raster::from_rows(rows, 1.0).expect("a grid"), Shape::of_cells(parts))
 }
 
 fn assert_alike(raster: &Histogram, polygon: &Histogram) {

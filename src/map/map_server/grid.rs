@@ -5,7 +5,7 @@ use std::path::Path;
 use super::image::Image;
 use super::mode::{CellState, Thresholds};
 use crate::geometry::{ClearanceGrid, Polygon, Vec2, distance_to_segment, vec2};
-use crate::limits::PICTURE_FILE_BYTES;
+use crate::limits::{HOME_INNER_WALLS, PICTURE_FILE_BYTES};
 
 /// A cell this near to a room's outline belongs to its wall, metres.
 const WALL_M: f64 = 0.25;
@@ -106,6 +106,8 @@ impl Grid {
             match walls.last_mut() {
                 // The next cell of the same row lengthens the segment.
                 Some([_, end]) if end[1] == at.y && (at.x - half - end[0]).abs() < 1e-6 => end[0] = at.x + half,
+                // The check of the map says how many are too many.
+                _ if walls.len() > HOME_INNER_WALLS.count() => break,
                 _ => walls.push([[at.x - half, at.y], [at.x + half, at.y]]),
             }
         }

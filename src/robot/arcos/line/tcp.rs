@@ -2,6 +2,7 @@
 
 use std::io::{self, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
+use std::os::fd::OwnedFd;
 use std::time::{Duration, Instant};
 
 use super::Line;
@@ -90,6 +91,11 @@ impl Line for TcpLine {
 
     fn now(&self) -> Duration {
         self.opened.elapsed()
+    }
+
+    fn share(&self) -> io::Result<OwnedFd> {
+        let stream = self.stream.as_ref().ok_or(io::ErrorKind::NotConnected)?;
+        Ok(stream.try_clone()?.into())
     }
 
     fn name(&self) -> String {
