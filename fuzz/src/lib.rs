@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use spatial_fetch::evaluation::{import, parse_tree, read_gold, score, with_texts};
-use spatial_fetch::force::{Describer, ForceName, AxesName};
+use spatial_fetch::force::{AxesName, Describer, ForceName};
 use spatial_fetch::frame::{decode_color, decode_depth, picture_size};
 use spatial_fetch::grounding::{GroundStage, Grounder, Method, Settings};
 use spatial_fetch::language::{Chunker, chunk_text};
