@@ -20,8 +20,16 @@ def main():
     one = subprocess.run(["bash", "-c", STAGES], input="\n".join(texts) + "\n", capture_output=True, text=True, check=True)
     context = SparkContext(master="local[2]", appName="spatial-fetch")
     context.setLogLevel("OFF")
+    try:
+        check(context, texts, one.stdout.splitlines())
+    finally:
+        # Before the folders go in which it works.
+        context.stop()
+
+
+def check(context, texts, one):
     many = context.parallelize(texts, 5).pipe(COMMAND, ENVIRONMENT, checkCode=True).collect()
-    assert many == one.stdout.splitlines(), "Spark's records differ from those of one process"
+    assert many == one, "Spark's records differ from those of one process"
     try:
         context.parallelize(texts + ['{"id":"bad","text":7}'], 5).pipe(COMMAND, ENVIRONMENT, checkCode=True).collect()
     except Exception:

@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 use divan::{Bencher, black_box};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spatial_fetch::force::raster::{Fuzzy, Pair, Raster};
-use spatial_fetch::force::{Force, Relation, Shape, degree_of_truth, polygon};
+use spatial_fetch::force::raster::{Fuzzy, Raster, RasterPair};
+use spatial_fetch::force::{Force, RelativePosition, Shape, degree_of_truth, polygon};
 
 const BOTH: [Force; 2] = [Force::Power(0.0), Force::Power(2.0)];
 
@@ -71,7 +71,7 @@ mod polygons {
     #[divan::bench]
     fn rectangles_as_a_relation(bencher: Bencher) {
         let (a, b) = rectangles();
-        bencher.bench(|| Relation::between(black_box(&a), black_box(&b)).degrees([0.0, 1.0, 2.0, 3.0]));
+        bencher.bench(|| RelativePosition::between(black_box(&a), black_box(&b)).degrees([0.0, 1.0, 2.0, 3.0]));
     }
 
     #[divan::bench]
@@ -127,7 +127,7 @@ mod rasters {
     use super::*;
 
     fn both(a: &Raster, b: &Raster, directions: usize) -> usize {
-        let pair = Pair::new(black_box(a), black_box(b), Fuzzy::Product).expect("one grid");
+        let pair = RasterPair::new(black_box(a), black_box(b), Fuzzy::Product).expect("one grid");
         pair.histograms(&BOTH, directions).len()
     }
 

@@ -25,6 +25,7 @@
 //! | [`frame`] | one RGB-D frame: colour, depth, camera and its pose | |
 //! | [`record`] | the record that grows from stage to stage | |
 //! | [`geometry`] | pose, polygon, grid | |
+//! | [`escape`] | text where it could do harm: on a terminal, in markup, as a file name | |
 //! | [`files`] | files that appear whole or not at all | |
 //! | [`limits`] | the most that is taken of anything from outside, and why | |
 
@@ -32,6 +33,7 @@ pub mod behavior;
 pub mod catalogue;
 pub mod cli;
 pub mod drawing;
+pub mod escape;
 pub mod evaluation;
 pub mod field;
 pub mod files;

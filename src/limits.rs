@@ -53,7 +53,7 @@ pub const PICTURE_FILE_BYTES: Limit = Limit {
 /// Bytes of a mesh file.
 pub const MESH_FILE_BYTES: Limit = Limit {
     name: "a mesh file",
-    value: 1 << 27,
+    value: 1 << 26,
     unit: "bytes",
     reason: "more than the most triangles fill",
     lifted_by: None,
@@ -86,6 +86,15 @@ pub const RASTER_CELLS: Limit = Limit {
     lifted_by: None,
 };
 
+/// Corners of a shape.
+pub const SHAPE_CORNERS: Limit = Limit {
+    name: "a shape",
+    value: 200_000,
+    unit: "corners",
+    reason: "a detailed coastline fits; each direction of a histogram sorts all of them",
+    lifted_by: None,
+};
+
 /// Cells of a `map_server` image.
 pub const MAP_CELLS: Limit = Limit {
     name: "the image of a map",
@@ -101,6 +110,33 @@ pub const HOME_EXTENT_M: Limit = Limit {
     value: 200,
     unit: "metres",
     reason: "a hospital ward fits; a home drawn in millimetres or centimetres does not",
+    lifted_by: None,
+};
+
+/// How far from the world's origin a home may lie.
+pub const HOME_COORDINATE_M: Limit = Limit {
+    name: "a coordinate of a home, from the world's origin",
+    value: 100_000,
+    unit: "metres",
+    reason: "farther off, what is computed from the origin loses its millimetres",
+    lifted_by: None,
+};
+
+/// Height of a home's walls.
+pub const WALL_HEIGHT_M: Limit = Limit {
+    name: "the height of walls",
+    value: 50,
+    unit: "metres",
+    reason: "a hall fits; a height in millimetres does not",
+    lifted_by: None,
+};
+
+/// Length, width and height of a piece of furniture.
+pub const ITEM_SIZE_M: Limit = Limit {
+    name: "the length, width or height of a piece of furniture",
+    value: 20,
+    unit: "metres",
+    reason: "a long counter fits; a size in millimetres does not",
     lifted_by: None,
 };
 
@@ -152,27 +188,27 @@ pub const MESH_TRIANGLES: Limit = Limit {
     lifted_by: None,
 };
 
-/// Corners of one face of a mesh.
-pub const FACE_CORNERS: Limit = Limit {
-    name: "a face of a mesh",
-    value: 1_000,
-    unit: "corners",
-    reason: "cutting a face into triangles takes the square of its corners",
+/// Area of a mesh's triangles together against that of its box.
+pub const MESH_LAYERS: Limit = Limit {
+    name: "a mesh, for each surface of its box",
+    value: 50,
+    unit: "times the area of the box in triangles",
+    reason: "each layer is drawn in every picture; a shelf with all its boards has 10",
     lifted_by: None,
 };
 
-/// Cells of a sheet, empty ones within its box included.
+/// Cells of a sheet.
 pub const SHEET_CELLS: Limit = Limit {
     name: "a sheet to import",
     value: 1 << 20,
     unit: "cells",
-    reason: "a stray cell in the last row and column would make 17 thousand million of them",
+    reason: "a file of a few bytes can claim 4 thousand million",
     lifted_by: None,
 };
 
-/// Bytes of a part of a spreadsheet file, unpacked.
+/// Bytes of all parts of a spreadsheet file, unpacked.
 pub const SHEET_PART_BYTES: Limit = Limit {
-    name: "a part of a spreadsheet, unpacked",
+    name: "a spreadsheet, unpacked",
     value: 1 << 26,
     unit: "bytes",
     reason: "a small file can unpack to any size",
@@ -233,6 +269,24 @@ pub const TRANSFORM_CHAIN: Limit = Limit {
     lifted_by: None,
 };
 
+/// Seconds that a detector of one's own may take for one frame.
+pub const DETECTOR_SECONDS: Limit = Limit {
+    name: "the answer of a --detector to one frame",
+    value: 120,
+    unit: "seconds",
+    reason: "the first frame may have to wait for a model to be loaded; a command that hangs would hold up everything",
+    lifted_by: Some("--detector-patience"),
+};
+
+/// Bytes of a detector's answer to one frame.
+pub const DETECTOR_ANSWER_BYTES: Limit = Limit {
+    name: "the answer of a --detector to one frame",
+    value: 1 << 22,
+    unit: "bytes",
+    reason: "thousands of detections fit; a flood without line ends has no end",
+    lifted_by: None,
+};
+
 /// All limits.
 pub const ALL: &[Limit] = &[
     LINE_BYTES,
@@ -242,8 +296,12 @@ pub const ALL: &[Limit] = &[
     IMPORT_FILE_BYTES,
     PICTURE_PIXELS,
     RASTER_CELLS,
+    SHAPE_CORNERS,
     MAP_CELLS,
     HOME_EXTENT_M,
+    HOME_COORDINATE_M,
+    WALL_HEIGHT_M,
+    ITEM_SIZE_M,
     HOME_ROOMS,
     HOME_DOORS,
     HOME_CORNERS,
@@ -251,7 +309,7 @@ pub const ALL: &[Limit] = &[
     SCENE_ITEMS,
     SCENE_OBJECTS,
     MESH_TRIANGLES,
-    FACE_CORNERS,
+    MESH_LAYERS,
     SHEET_CELLS,
     SHEET_PART_BYTES,
     TREE_DEPTH,
@@ -260,6 +318,8 @@ pub const ALL: &[Limit] = &[
     MCAP_CHUNK_RATIO,
     MCAP_WAITING,
     TRANSFORM_CHAIN,
+    DETECTOR_SECONDS,
+    DETECTOR_ANSWER_BYTES,
 ];
 
 impl Limit {

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use spatial_fetch::geometry::Pose;
 use spatial_fetch::map::RoomMap;
-use spatial_fetch::robot::arcos::client::{Client, ConnectError, Settings};
+use spatial_fetch::robot::arcos::client::{ArcosSettings, Client, ConnectError};
 use spatial_fetch::robot::arcos::codec::{
     Command, Decoder, ENCODER_PACKET, GYRO_PACKET, Gyro, IO_PACKET, Packet, SIP_STOPPED, number,
 };
@@ -29,7 +29,7 @@ fn robot() -> Robot {
     robot_with(ServerSettings::default(), Pose::new(-2.0, 0.0, 0.0))
 }
 
-fn connect(robot: &Robot, settings: Settings) -> Client<MemoryLine> {
+fn connect(robot: &Robot, settings: ArcosSettings) -> Client<MemoryLine> {
     Client::connect(MemoryLine::new(Rc::clone(robot)), settings).expect("connects")
 }
 
@@ -61,7 +61,7 @@ fn error_of(client: &Client<MemoryLine>, robot: &Robot, start: Pose) -> (f64, f6
 fn the_client_believes_what_is_true_after_a_drive_with_turns() {
     let start = Pose::new(-2.0, 0.0, 0.0);
     let robot = robot();
-    let mut client = connect(&robot, Settings::default());
+    let mut client = connect(&robot, ArcosSettings::default());
     drive(&mut client, 0.3, 0.0, 4.0);
     drive(&mut client, 0.0, 0.8, 3.0);
     drive(&mut client, 0.2, -0.5, 2.0);
@@ -74,7 +74,7 @@ fn the_client_believes_what_is_true_after_a_drive_with_turns() {
 #[test]
 fn zero_set_points_go_before_the_motors_and_limits_before_both() {
     let robot = robot();
-    let _client = connect(&robot, Settings::default());
+    let _client = connect(&robot, ArcosSettings::default());
     let heard: Vec<String> = robot.borrow_mut().take_heard().iter().map(|heard| heard.command.to_string()).collect();
     let at = |what: &str| heard.iter().position(|command| command == what).expect(what);
     assert!(at("SETV 300") < at("VEL 0") && at("VEL 0") < at("RVEL 0") && at("RVEL 0") < at("ENABLE 1"), "{heard:?}");
@@ -83,7 +83,7 @@ fn zero_set_points_go_before_the_motors_and_limits_before_both() {
 #[test]
 fn the_speed_limit_holds_whatever_is_asked() {
     let robot = robot();
-    let mut client = connect(&robot, Settings::default());
+    let mut client = connect(&robot, ArcosSettings::default());
     drive(&mut client, 5.0, 0.0, 3.0);
     assert!(robot.borrow().velocity().0 <= 0.301, "{:?}", robot.borrow().velocity());
     client.drive(f64::NAN, f64::INFINITY, 0.1).expect("drives");
@@ -94,7 +94,7 @@ fn the_speed_limit_holds_whatever_is_asked() {
 #[test]
 fn a_velocity_not_asked_for_again_ends_at_its_deadline() {
     let robot = robot();
-    let mut client = connect(&robot, Settings::default());
+    let mut client = connect(&robot, ArcosSettings::default());
     drive(&mut client, 0.3, 0.0, 2.0);
     turn(&mut client, 0.4);
     assert!(!robot.borrow().is_driven(), "told to stop 300 ms after the last word");
@@ -106,7 +106,7 @@ fn a_velocity_not_asked_for_again_ends_at_its_deadline() {
 #[test]
 fn a_client_that_is_gone_leaves_the_robot_to_its_watchdog() {
     let robot = robot();
-    let mut client = connect(&robot, Settings::default());
+    let mut client = connect(&robot, ArcosSettings::default());
     drive(&mut client, 0.3, 0.0, 2.0);
     // As by kill -9: nothing is said any more.
     std::mem::forget(client);
@@ -120,7 +120,7 @@ fn a_client_that_is_gone_leaves_the_robot_to_its_watchdog() {
 #[test]
 fn good_bye_is_stop_then_motors_off_then_close() {
     let robot = robot();
-    let mut client = connect(&robot, Settings::default());
+    let mut client = connect(&robot, ArcosSettings::default());
     drive(&mut client, 0.3, 0.0, 1.0);
     robot.borrow_mut().take_heard();
     drop(client);
@@ -133,21 +133,21 @@ fn good_bye_is_stop_then_motors_off_then_close() {
 #[test]
 fn a_session_left_open_is_taken_over_and_its_old_velocity_not_taken_up() {
     let robot = robot();
-    let mut first = connect(&robot, Settings::default());
+    let mut first = connect(&robot, ArcosSettings::default());
     drive(&mut first, 0.3, 0.0, 1.0);
     std::mem::forget(first);
     MemoryLine::new(Rc::clone(&robot)).sleep(Duration::from_secs(30));
     let before = robot.borrow().truth().borrow().pose;
     let mut line = MemoryLine::new(Rc::clone(&robot));
     line.sleep(Duration::from_secs(31));
-    let _second = Client::connect(line, Settings::default()).expect("connects");
+    let _second = Client::connect(line, ArcosSettings::default()).expect("connects");
     assert_eq!(robot.borrow().truth().borrow().pose, before);
 }
 
 #[test]
 fn the_stop_button_ends_the_drive_and_says_so() {
     let robot = robot();
-    let mut client = connect(&robot, Settings::default());
+    let mut client = connect(&robot, ArcosSettings::default());
     drive(&mut client, 0.3, 0.0, 1.0);
     robot.borrow_mut().press_stop_button(true);
     let ended = (0..10).find_map(|_| client.drive(0.3, 0.0, 0.1).err());
@@ -161,7 +161,7 @@ fn the_stop_button_ends_the_drive_and_says_so() {
 #[test]
 fn after_the_stop_button_resume_enables_the_motors_with_zero_set_points_and_goes_on() {
     let robot = robot();
-    let mut client = connect(&robot, Settings { resume: true, ..Settings::default() });
+    let mut client = connect(&robot, ArcosSettings { resume: true, ..ArcosSettings::default() });
     drive(&mut client, 0.3, 0.0, 1.0);
     robot.borrow_mut().press_stop_button(true);
     drive(&mut client, 0.3, 0.0, 1.0);
@@ -176,7 +176,7 @@ fn after_the_stop_button_resume_enables_the_motors_with_zero_set_points_and_goes
 #[test]
 fn motors_that_are_switched_off_are_told_at_once() {
     let robot = robot();
-    let mut client = connect(&robot, Settings::default());
+    let mut client = connect(&robot, ArcosSettings::default());
     robot.borrow_mut().receive(&Command::int(number::ENABLE, 0).to_packet().to_bytes());
     let ended = (0..10).find_map(|_| client.drive(0.3, 0.0, 0.1).err());
     assert!(matches!(ended, Some(RobotError::Held(why)) if why.contains("motors are disabled")));
@@ -185,7 +185,7 @@ fn motors_that_are_switched_off_are_told_at_once() {
 #[test]
 fn the_sonar_stops_the_robot_before_the_wall() {
     let robot = robot_with(ServerSettings::default(), Pose::new(5.5, 0.0, 0.0));
-    let mut client = connect(&robot, Settings::default());
+    let mut client = connect(&robot, ArcosSettings::default());
     for _ in 0..100 {
         let _ = client.drive(0.3, 0.0, 0.1);
     }
@@ -198,7 +198,7 @@ fn the_sonar_stops_the_robot_before_the_wall() {
 fn counters_reset_behind_our_back_do_not_move_the_robot() {
     let start = Pose::new(-2.0, 0.0, 0.0);
     let robot = robot();
-    let mut client = connect(&robot, Settings::default());
+    let mut client = connect(&robot, ArcosSettings::default());
     drive(&mut client, 0.3, 0.1, 3.0);
     robot.borrow_mut().reset_odometry();
     drive(&mut client, 0.3, -0.1, 2.0);
@@ -213,7 +213,7 @@ fn the_older_model_is_driven_by_its_own_scale() {
     let start = Pose::new(-2.0, 0.0, 0.0);
     let settings = ServerSettings { parameters: Parameters::P3DX, ..ServerSettings::default() };
     let robot = robot_with(settings, start);
-    let mut client = connect(&robot, Settings::default());
+    let mut client = connect(&robot, ArcosSettings::default());
     drive(&mut client, 0.3, 0.0, 4.0);
     drive(&mut client, 0.0, 0.0, 2.0);
     assert!(error_of(&client, &robot, start).0 < 0.01);
@@ -224,15 +224,15 @@ fn an_unknown_model_is_refused_with_a_way_out() {
     let parameters = Parameters { subclass: "p9zz", ..Parameters::P3DX_SH };
     let settings = ServerSettings { parameters, ..ServerSettings::default() };
     let robot = robot_with(settings, Pose::default());
-    let error = Client::connect(MemoryLine::new(Rc::clone(&robot)), Settings::default()).err().expect("refused");
+    let error = Client::connect(MemoryLine::new(Rc::clone(&robot)), ArcosSettings::default()).err().expect("refused");
     assert!(matches!(error, ConnectError::UnknownModel(..)) && error.to_string().contains("--robot-model"), "{error}");
-    connect(&robot, Settings { model: Some(Parameters::P3DX_SH), ..Settings::default() });
+    connect(&robot, ArcosSettings { model: Some(Parameters::P3DX_SH), ..ArcosSettings::default() });
 }
 
 #[test]
 fn before_driving_off_one_line_says_what_matters() {
     let robot = robot();
-    let mut client = connect(&robot, Settings::default());
+    let mut client = connect(&robot, ArcosSettings::default());
     turn(&mut client, 0.5);
     let line = client.preflight();
     for part in ["p3dx-sh", "battery 12.8 V", "motors on", "16 sonars", "firmware 2.9", "0.30 m/s", "robot: 2000 ms"] {
@@ -377,7 +377,7 @@ fn close_stops_and_the_next_client_is_served() {
     answers(&robot, &mut line, &[Command::int(number::CLOSE, 1)]);
     line.sleep(Duration::from_secs(2));
     assert_eq!(robot.borrow().velocity(), (0.0, 0.0));
-    let mut client = Client::connect(line, Settings::default()).expect("served again");
+    let mut client = Client::connect(line, ArcosSettings::default()).expect("served again");
     turn(&mut client, 0.5);
     assert!(client.report().motors);
 }

@@ -10,7 +10,7 @@ use std::time::Duration;
 use faulty_line::{FaultyLine, Rates};
 use spatial_fetch::geometry::{Pose, wrap_angle};
 use spatial_fetch::robot::MobileBase;
-use spatial_fetch::robot::arcos::client::{Client, Settings};
+use spatial_fetch::robot::arcos::client::{ArcosSettings, Client};
 use spatial_fetch::robot::arcos::line::{Line, PtyLine, SerialLine};
 use spatial_fetch::simulation::arcos::MemoryLine;
 use spatial_fetch::simulation::arcos::{Server, ServerSettings};
@@ -22,8 +22,8 @@ const WATCHDOG: Duration = Duration::from_millis(300);
 const STOPS_WITHIN: Duration = Duration::from_millis(500);
 const TURN: Duration = Duration::from_millis(20);
 
-fn settings() -> Settings {
-    Settings { reconnect: Some(Duration::from_secs(60)), resume: true, ..Settings::default() }
+fn settings() -> ArcosSettings {
+    ArcosSettings { reconnect: Some(Duration::from_secs(60)), resume: true, ..ArcosSettings::default() }
 }
 
 fn server() -> Server {

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use proptest::prelude::*;
 use serde::Deserialize;
 use serde_json::Value;
-use spatial_fetch::force::raster::{Fuzzy, Pair, Raster};
+use spatial_fetch::force::raster::{Fuzzy, Raster, RasterPair};
 use spatial_fetch::force::{Force, Histogram, Infinite, Shape, degree_of_truth, main_direction, polygon};
 
 #[derive(Deserialize)]
@@ -106,7 +106,7 @@ fn rectilinear_cases_have_the_same_forces_as_rasters() {
     for case in cases() {
         let (a, b) = (shape(&case.a), shape(&case.b));
         let (Some(cells_a), Some(cells_b)) = (raster(&a, &case.a), raster(&b, &case.b)) else { continue };
-        let pair = Pair::new(&cells_a, &cells_b, Fuzzy::Product).expect("one grid");
+        let pair = RasterPair::new(&cells_a, &cells_b, Fuzzy::Product).expect("one grid");
         for (name, force) in forces(&case) {
             compared += compare(&case, name, pair.histogram(force, 72));
         }
@@ -270,7 +270,7 @@ proptest! {
             let (x, y, w, h) = (x as f64, y as f64, w as f64, h as f64);
             Shape::from_ring(vec![[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
         };
-        let pair = Pair::new(&cells(x, y, w, h), &cells(0, 0, 5, 4), Fuzzy::Product).expect("one grid");
+        let pair = RasterPair::new(&cells(x, y, w, h), &cells(0, 0, 5, 4), Fuzzy::Product).expect("one grid");
         for force in [Force::Power(power), Force::Power(0.0), Force::Power(2.0), Force::Hybrid(3.0)] {
             let raster = pair.histogram(force, 72).expect("apart");
             assert_same(raster.values(), histogram(&shape(x, y, w, h), &shape(0, 0, 5, 4), force).values(), 1e-9)?;

@@ -207,3 +207,29 @@ fn circle(start: &str, arrows: &BTreeMap<&str, BTreeSet<String>>) -> Option<Stri
     }
     None
 }
+
+/// The public functions of a file that can fail and do not say of what: `line N: name`.
+fn silent_about_errors(source: &Source) -> Vec<String> {
+    let lines: Vec<&str> = source.text.lines().collect();
+    let begins = |line: &str| line.trim_start().strip_prefix("pub fn ").map(|rest| rest.to_string());
+    let mut silent = Vec::new();
+    for (at, rest) in lines.iter().enumerate().filter_map(|(at, line)| Some((at, begins(line)?))) {
+        let length = lines[at..].iter().position(|line| line.ends_with('{')).unwrap_or(0);
+        let signature = lines[at..=at + length].concat();
+        let answer = signature.rsplit(") -> ").next().filter(|_| signature.contains(") -> ")).unwrap_or_default();
+        let kind = answer.split('<').next().unwrap_or_default().trim_end_matches([' ', '{']);
+        let documented = |line: &&&str| matches!(line.trim_start().get(..2), Some("//" | "#["));
+        let mut doc = lines[..at].iter().rev().take_while(documented);
+        if kind.rsplit("::").next().is_some_and(|name| name.ends_with("Result")) && !doc.any(|l| l.contains("# Errors"))
+        {
+            silent.push(format!("{} line {}: {}", source.module, at + 1, rest.split('(').next().unwrap_or_default()));
+        }
+    }
+    silent
+}
+
+#[test]
+fn every_public_function_that_can_fail_says_of_what() {
+    let silent: Vec<String> = sources().iter().flat_map(silent_about_errors).collect();
+    assert!(silent.is_empty(), "these want a section `# Errors`:\n{}", silent.join("\n"));
+}

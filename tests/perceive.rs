@@ -12,7 +12,7 @@ fn frames(count: usize) -> (tempfile::TempDir, String) {
     let folder = tempfile::tempdir().expect("a folder");
     let frames = folder.path().join("frames");
     let name = frames.display().to_string();
-    run("evaluate", &["frames", "--count", &count.to_string(), "--seed", "77", "-o", &name], "").expect_code(0);
+    run("evaluate", &["frames", "--count", &count.to_string(), "--seed", "77", "--into", &name], "").expect_code(0);
     (folder, frames.join("index.jsonl").display().to_string())
 }
 

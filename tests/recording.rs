@@ -14,7 +14,7 @@ use spatial_fetch::map::RoomMap;
 use spatial_fetch::perception::Detector;
 use spatial_fetch::record::{Plan, Record};
 use spatial_fetch::recording::records;
-use spatial_fetch::simulation::{Home, Perception, Settings, stream_of};
+use spatial_fetch::simulation::{Home, Perception, TrialSettings, stream_of};
 
 const SENTENCE: &str = "the mug is in the bedroom on the table next to the chairs\n";
 
@@ -77,7 +77,7 @@ fn seen_and_recorded(folder: &Path) -> (Vec<Value>, String) {
     let record = Record::parse(&planned).expect("a record");
     let plan: Plan = record.require("plan", "").expect("a plan");
     let home = Home::load(None, None).expect("the apartment");
-    let settings = Settings { perception: Perception::Camera, seed: 2, ..Settings::default() };
+    let settings = TrialSettings { perception: Perception::Camera, seed: 2, ..TrialSettings::default() };
     let mut witness = Witness { detector: Detector::default(), map: home.map.clone(), seen: Vec::new() };
     let stream = stream_of(&record.id().expect("an id"));
     spatial_fetch::simulation::run(&home, &plan, &settings, stream, &mut witness);

@@ -44,17 +44,26 @@ fn a_static_instruction_without_a_camera_says_what_it_lacks() {
 
 #[test]
 fn each_signal_stops_the_robot_by_our_own_word_and_leaves_a_whole_log() {
-    for signal in ["INT", "TERM", "HUP"] {
+    use std::os::unix::process::ExitStatusExt;
+    // INT, TERM and HUP end with 130; the others as they always do.
+    for (signal, code) in [
+        ("INT", 130),
+        ("TERM", 130),
+        ("HUP", 130),
+        ("QUIT", -3),
+        ("USR1", -10),
+        ("ALRM", -14),
+        ("XCPU", -24),
+        ("ABRT", -6),
+    ] {
         let served = Served::start(&[]);
         let log = served.path("trial.mcap");
         let mut child = client(&served, &log, FAR_AHEAD);
         wait_for("motion", || served.speed() > 0.1);
-        let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().expect("kill runs");
-        assert!(sent.success());
-        assert_eq!(child.wait().expect("ends").code(), Some(130), "{signal}");
-        wait_for("a standstill", || served.speed() == 0.0);
-        wait_for("a good-bye", || served.log().contains("the client has closed the robot"));
-        assert!(!served.log().contains("watchdog"), "{signal}: {}", served.log());
+        send(signal, child.id());
+        let status = child.wait().expect("ends");
+        assert_eq!(status.code().unwrap_or_else(|| -status.signal().expect("a signal")), code, "{signal}");
+        expect_stopped(&served, signal);
         let records = spatial_fetch::recording::records(&log, "/fetch/drive").expect("a whole log");
         assert!(
             records.last().is_some_and(|record| record.contains(r#""outcome":"stopped""#)),
@@ -63,11 +72,60 @@ fn each_signal_stops_the_robot_by_our_own_word_and_leaves_a_whole_log() {
     }
 }
 
+fn send(signal: &str, process: u32) {
+    let sent = Command::new("kill").args(["-s", signal, &process.to_string()]).status().expect("kill runs");
+    assert!(sent.success());
+}
+
+/// The robot stands, by a word of ours and not by its watchdog, and its session is closed.
+fn expect_stopped(served: &Served, how: &str) {
+    wait_for("a standstill", || served.speed() == 0.0);
+    wait_for("a good-bye", || served.log().contains("the client has closed the robot"));
+    assert!(!served.log().contains("watchdog"), "{how}: {}", served.log());
+}
+
 #[test]
-fn a_client_killed_in_mid_motion_leaves_the_robot_to_its_watchdog() {
+fn a_client_killed_in_mid_motion_is_spoken_for_by_its_second_process() {
+    for signal in ["KILL", "ILL"] {
+        let served = Served::start(&[]);
+        let mut child = client(&served, &served.path("trial.mcap"), FAR_AHEAD);
+        wait_for("motion", || served.speed() > 0.1);
+        let before = served.truth()["distance_m"].as_f64().expect("a distance");
+        send(signal, child.id());
+        child.wait().expect("ends");
+        expect_stopped(&served, signal);
+        let driven = served.truth()["distance_m"].as_f64().expect("a distance") - before;
+        eprintln!("driven after the kill: {driven:.2} m");
+        assert!(driven < 0.6, "{driven} m");
+    }
+}
+
+#[test]
+fn a_client_that_is_suspended_stands_and_goes_on_after_it() {
+    for signal in ["TSTP", "STOP"] {
+        let served = Served::start(&["--watchdog", "60000"]);
+        let mut child = client(&served, &served.path("trial.mcap"), FAR_AHEAD);
+        wait_for("motion", || served.speed() > 0.1);
+        send(signal, child.id());
+        wait_for("a standstill", || served.speed() == 0.0);
+        let stands = served.truth()["distance_m"].as_f64().expect("a distance");
+        std::thread::sleep(std::time::Duration::from_millis(500));
+        assert_eq!(served.truth()["distance_m"].as_f64(), Some(stands), "{signal}: nothing moves meanwhile");
+        send("CONT", child.id());
+        assert_eq!(child.wait().expect("ends").code(), Some(0), "{signal}");
+        let records = spatial_fetch::recording::records(&served.path("trial.mcap"), "/fetch/drive").expect("a log");
+        assert!(records[0].contains(r#""outcome":"arrived""#), "{signal}: {records:?}");
+    }
+}
+
+#[test]
+fn a_client_killed_with_its_second_process_leaves_the_robot_to_its_watchdog() {
     let served = Served::start(&["--watchdog", "500"]);
     let mut child = client(&served, &served.path("trial.mcap"), FAR_AHEAD);
     wait_for("motion", || served.speed() > 0.1);
+    let children = format!("/proc/{0}/task/{0}/children", child.id());
+    let second = std::fs::read_to_string(children).expect("readable");
+    second.split_whitespace().for_each(|process| send("KILL", process.parse().expect("a number")));
     child.kill().expect("killed");
     child.wait().expect("ends");
     wait_for("a standstill", || served.speed() == 0.0);

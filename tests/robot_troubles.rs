@@ -23,7 +23,7 @@ use spatial_fetch::map::load_map;
 use spatial_fetch::perception::{Eyes, View};
 use spatial_fetch::record::{Record, Stage};
 use spatial_fetch::recording::Outputs;
-use spatial_fetch::robot::arcos::client::{ArcosBase, Settings};
+use spatial_fetch::robot::arcos::client::{ArcosBase, ArcosSettings};
 use spatial_fetch::robot::arcos::line::{Line, SerialLine};
 use spatial_fetch::robot::{MobileBase, RobotError};
 use spatial_fetch::simulation::arcos::{ServeAddress, Server, ServerSettings, serve};
@@ -67,12 +67,14 @@ fn a_disk_that_fills_up_in_mid_drive_stops_the_robot_and_is_said() {
     // No file of this process may grow beyond 34 blocks of 512 bytes: what is written before driving off, and a little.
     let mut limited = Command::new("sh");
     limited
-        .args(["-c", r#"trap "" XFSZ; ulimit -f 34; exec "$@""#, "sh", executable("drive")])
+        .args(["-c", r#"ulimit -f 34; exec "$@""#, "sh", executable("drive")])
         .args(["--robot", &served.address(), "--map", &served.map(), "--record"])
         .arg(&log);
     let ended = start_with_plan(&mut limited, FAR_AHEAD).wait_with_output().expect("ends");
     let said = String::from_utf8(ended.stderr).expect("UTF-8");
-    assert_eq!(ended.status.code(), Some(1), "{said}");
+    // The trial was driven: its record comes out, and the log that could not be written is said.
+    assert_eq!(ended.status.code(), Some(3), "{said}");
+    assert!(String::from_utf8_lossy(&ended.stdout).contains(r#""outcome":"stopped""#), "{said}");
     assert!(said.contains("trial.mcap: ") && said.contains("too large"), "{said}");
     expect_good_bye(&served);
     expect_broken_off(&served);
@@ -100,7 +102,7 @@ fn an_adapter_that_is_unplugged_ends_the_trial_as_link_lost() {
     // The other end of the pseudo-terminal goes, and with it the device.
     served.child.kill().expect("killed");
     served.child.wait().expect("ends");
-    assert_eq!(child.wait().expect("ends").code(), Some(0));
+    assert_eq!(child.wait().expect("ends").code(), Some(3), "not driven to the end");
     let said = std::fs::read_to_string(served.path("client.log")).expect("a log");
     assert!(said.contains("link lost: the adapter"), "{said}");
     let records = spatial_fetch::recording::records(&served.path("trial.mcap"), "/fetch/drive").expect("a whole log");
@@ -209,7 +211,8 @@ impl OwnRobot {
         self.stop_button.store(false, Ordering::SeqCst);
         let ended = child.wait_with_output().expect("ends");
         let said = String::from_utf8(ended.stderr).expect("UTF-8");
-        assert_eq!(ended.status.code(), Some(0), "{said}");
+        let goes_on = option.contains(&"--resume");
+        assert_eq!(ended.status.code(), Some(if goes_on { 0 } else { 3 }), "{said}");
         (serde_json::from_slice(&ended.stdout).expect("a record"), said)
     }
 }
@@ -236,7 +239,7 @@ fn the_stop_button_ends_a_trial_and_with_resume_only_interrupts_it() {
 /// A driver in this process, at the served robot's line, that sees through `eyes`; and what it says.
 fn own_driver(served: &Served, line: Box<dyn Line + Send>, eyes: Box<dyn Eyes + Send>) -> (RealDriver, Said) {
     let map = load_map(served.map().as_ref()).expect("a map");
-    let base = ArcosBase::connect(line, Settings::default(), map.start).expect("connects");
+    let base = ArcosBase::connect(line, ArcosSettings::default(), map.start).expect("connects");
     let said: Said = Arc::default();
     let hears = Arc::clone(&said);
     let tell = Arc::new(move |text: &str| hears.lock().expect("whole").push_str(&format!("{text}\n")));
@@ -312,7 +315,7 @@ fn a_panic_in_the_thread_that_talks_to_the_robot_stops_it_and_is_told_to_the_pro
     let served = Served::start(&[]);
     let panics = Arc::new(AtomicBool::new(false));
     let line = Panicking(serial(&served), Arc::clone(&panics));
-    let mut base = ArcosBase::connect(Box::new(line), Settings::default(), Pose::default()).expect("connects");
+    let mut base = ArcosBase::connect(Box::new(line), ArcosSettings::default(), Pose::default()).expect("connects");
     while served.speed() < 0.1 {
         base.drive(0.3, 0.0, 0.1).expect("drives");
     }

@@ -45,6 +45,9 @@ const GOT_ON_M: f64 = 0.3;
 
 impl Pilot<'_> {
     /// Turns in place to a heading, radians.
+    ///
+    /// # Errors
+    /// When the robot is stopped or held fast, its time is up or its link lost.
     pub fn turn_to(&mut self, heading: f64) -> Result<(), Halt> {
         self.come_to_rest()?;
         self.make_room()?;
@@ -89,6 +92,9 @@ impl Pilot<'_> {
     }
 
     /// Drives to a point, metres, round everything known.
+    ///
+    /// # Errors
+    /// When no way leads there, or the robot is stopped or held fast, its time is up or its link lost.
     pub fn go_to(&mut self, goal: Vec2) -> Result<(), Halt> {
         let (mut in_vain, mut from) = (0, self.pose().position());
         for _ in 0..MOST_REPLANS_IN_ALL {
@@ -156,6 +162,9 @@ impl Pilot<'_> {
     }
 
     /// Drives to a pose and turns to its heading.
+    ///
+    /// # Errors
+    /// As for going to a point.
     pub fn go_to_pose(&mut self, goal: Pose) -> Result<(), Halt> {
         self.go_to(goal.position())?;
         self.turn_to(goal.heading)?;
@@ -164,6 +173,9 @@ impl Pilot<'_> {
     }
 
     /// Drives into a room that no door leads into, such as a passage: to the nearest place where it can turn.
+    ///
+    /// # Errors
+    /// As for going to a point.
     pub fn go_into(&mut self, outline: &Polygon, name: &str) -> Result<(), Halt> {
         let here = self.pose().position();
         let off = |point: &Vec2| (point - here).norm();

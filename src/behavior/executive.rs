@@ -6,6 +6,7 @@ use super::motion::{Landmark, RoomFrame, Step, step_for};
 use super::pilot::Pilot;
 use super::relation::{Place, angle_of};
 use super::search::{Wanted, references};
+use super::telling::telling;
 use super::{Halt, Journal, Watcher};
 use crate::geometry::{Polygon, Pose, Vec2};
 use crate::language::Lexicon;
@@ -31,6 +32,8 @@ pub struct Options {
     pub no_glance: bool,
     /// Believe the odometry alone.
     pub no_localization: bool,
+    /// Say where the object was found as a person would.
+    pub describe: bool,
     /// Seconds of robot time a trial may take.
     pub time_limit_s: f64,
 }
@@ -44,6 +47,7 @@ impl Default for Options {
             no_fallback: false,
             no_glance: false,
             no_localization: false,
+            describe: false,
             time_limit_s: 900.0,
         }
     }
@@ -64,6 +68,8 @@ pub struct Report {
     pub delivered: Vec<Delivery>,
     /// Where the robot believes to be at the end.
     pub pose: Pose,
+    /// Where the object was found, as a person would say it; where that was asked for.
+    pub description: Option<String>,
     /// What was done and why.
     pub journal: Journal,
 }
@@ -76,6 +82,7 @@ pub struct Executive<'a> {
     pub(super) lexicon: &'static Lexicon,
     pub(super) approached: Vec<Vec2>,
     pub(super) found_at: Option<Vec2>,
+    description: Option<String>,
     pub(super) delivered: Vec<Delivery>,
     /// Where the robot started: where the speaker is.
     pub(super) start: Pose,
@@ -89,6 +96,15 @@ pub(super) struct Task<'p> {
     pub(super) object: Option<&'p str>,
     /// Further objects of the errand.
     further: Vec<&'p str>,
+}
+
+impl Task<'_> {
+    /// Whether the words name neither a thing nor a place where one could be.
+    fn looks_for_nothing(&self) -> bool {
+        let wanted = &self.wanted;
+        let is_placed = wanted.target.is_some() || !wanted.pairs.is_empty();
+        self.object.is_none() && !is_placed && wanted.attributes.is_empty() && wanted.ordinal.is_none()
+    }
 }
 
 impl<'a> Executive<'a> {
@@ -109,6 +125,7 @@ impl<'a> Executive<'a> {
             lexicon: Lexicon::embedded(),
             approached: Vec::new(),
             found_at: None,
+            description: None,
             delivered: Vec::new(),
             start,
         }
@@ -137,6 +154,7 @@ impl<'a> Executive<'a> {
             found_at: self.found_at,
             delivered: self.delivered,
             pose,
+            description: self.description,
             journal: self.pilot.journal,
         }
     }
@@ -162,6 +180,9 @@ impl<'a> Executive<'a> {
     /// One errand: to the room, inside it, find everything, bring it.
     fn errand(&mut self, actions: &[Action]) -> Result<(Outcome, String), Halt> {
         let mut task = self.task_of(actions);
+        if !self.options.blind && task.looks_for_nothing() {
+            return self.only_move(actions, &task);
+        }
         let mut why = String::new();
         for (i, room) in task.rooms.clone().iter().enumerate() {
             if let Err(halt) = self.enter(room) {
@@ -181,7 +202,10 @@ impl<'a> Executive<'a> {
                 return Ok((Outcome::Arrived, why));
             }
             match self.search(&task, &frame)? {
-                Ok(found) => why = found,
+                Ok(found) => {
+                    why = found;
+                    self.describe(&task, room, &frame);
+                }
                 Err(reason) => {
                     why = reason;
                     continue;
@@ -203,6 +227,36 @@ impl<'a> Executive<'a> {
             return Ok((Outcome::Found, why));
         }
         Ok((Outcome::NotFound, why))
+    }
+
+    /// Notes where the object was found, as someone who comes into the room would be told.
+    fn describe(&mut self, task: &Task, room: &str, frame: &RoomFrame) {
+        let Some(found) = self.found_at.filter(|_| self.options.describe) else { return };
+        let place = Place { room: frame, arrived: frame.entry };
+        self.description = telling(&self.pilot.beliefs, found, task.object, room, place, self.lexicon);
+    }
+
+    /// Where nothing to look for was named, the robot goes where it was told to: into the room that was said, else
+    /// from where it stands.
+    fn only_move(&mut self, actions: &[Action], task: &Task) -> Result<(Outcome, String), Halt> {
+        let said = actions.iter().find_map(|action| match action {
+            Action::Enter { room, .. } => room.as_deref(),
+            _ => None,
+        });
+        if let Some(room) = said {
+            self.enter(room)?;
+        }
+        let here = self.map.room_at(self.pilot.pose().position()).map(|room| room.name.clone());
+        if let Some(here) = here {
+            let frame = RoomFrame::of(self.map, &here, self.pilot.pose());
+            for action in &task.steps {
+                self.step(action, &frame)?;
+            }
+        }
+        let brought = self.deliver_all(actions)?;
+        let place = self.map.room_at(self.pilot.pose().position()).map(|room| room.name.replace('_', " "));
+        let place = place.map_or(String::new(), |room| format!("in the {room}; "));
+        Ok((Outcome::Arrived, brought.unwrap_or_else(|| format!("{place}nothing to look for was named"))))
     }
 
     fn task_of<'p>(&self, actions: &'p [Action]) -> Task<'p> {
@@ -245,7 +299,8 @@ impl<'a> Executive<'a> {
         if outline.contains(self.pilot.pose().position()) {
             self.pilot.because("already there");
         } else if let Some(entry) = self.map.entry_pose(room) {
-            self.pilot.because(format!("the {name} is entered at ({:.1}, {:.1})", entry.x, entry.y));
+            let reason = format!("the {name} is entered at ({:.1}, {:.1})", entry.x, entry.y);
+            self.pilot.because_plainly(reason, &format!("going into the {name}"));
             self.pilot.go_to_pose(entry)?;
         } else {
             self.pilot.go_into(&outline, &name)?;

@@ -25,6 +25,8 @@ const LOOKS_TO_REFUTE: f64 = 3.0;
 pub struct Furniture {
     /// Tells it from others of its category.
     pub number: usize,
+    /// What it is called in place of category and number, by those who know better than the robot.
+    pub name: Option<String>,
     /// The best look at it, under the category that most looks speak for.
     pub detection: Detection,
     /// Its outline on the floor.
@@ -54,6 +56,7 @@ impl Furniture {
     pub(super) fn new(number: usize, detection: &Detection, footprint: Polygon) -> Self {
         let mut furniture = Self {
             number,
+            name: None,
             detection: detection.clone(),
             footprint,
             searched: false,
@@ -76,8 +79,18 @@ impl Furniture {
         vec2(self.detection.x, self.detection.y)
     }
 
-    /// Category and number, for people: "coffee table 2".
+    /// Category and number, for people: "coffee table 2"; or the name it was given.
     pub fn label(&self) -> String {
+        let name = self.name.clone();
+        name.unwrap_or_else(|| self.counted())
+    }
+
+    /// The same piece under that name.
+    pub fn named(&self, name: String) -> Self {
+        Self { name: Some(name), ..self.clone() }
+    }
+
+    fn counted(&self) -> String {
         format!("{} {}", self.detection.category.replace('_', " "), self.number)
     }
 

@@ -30,7 +30,9 @@ mod relation;
 mod route;
 pub mod search;
 mod static_tier;
+mod telling;
 mod trial_record;
+mod trial_text;
 mod wanted;
 mod watcher;
 
@@ -44,5 +46,6 @@ pub use localizer::Localizer;
 pub use pilot::{Halt, grid_of};
 pub use relation::Place;
 pub use route::{length, route};
-pub use trial_record::{Run, plan_of, rounded, text_of};
-pub use watcher::{Silent, Watcher};
+pub use trial_record::{Run, note_of, object_of, plan_of, rounded};
+pub use trial_text::{row_of, shade_of, text_of};
+pub use watcher::{Several, Silent, Watcher};

@@ -23,6 +23,8 @@ const PLAIN_VIEW_RAD: f64 = 0.4;
 /// A line of sight passes walls by this, metres: a cell's middle lies half a cell off them at most.
 const SIGHT_M: f64 = 0.08;
 
+/// A dead time that changes by more than this is told, seconds.
+const TELLING_S: f64 = 0.03;
 /// Why the executive had to end early.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Halt {
@@ -144,7 +146,15 @@ impl<'a> Pilot<'a> {
     /// Notes a reason for the present action.
     pub fn because(&mut self, reason: impl Into<String>) {
         let reason = reason.into();
-        self.watcher.said(self.base.time_s(), &reason);
+        let plain = reason.clone();
+        self.because_plainly(reason, &plain);
+    }
+
+    /// The same, with plain words for those who look on and do not ask for figures.
+    pub fn because_plainly(&mut self, reason: String, plain: &str) {
+        let time_s = self.base.time_s();
+        self.watcher.said(time_s, &reason);
+        self.watcher.told(time_s, plain);
         self.journal.because(reason);
     }
 
@@ -157,6 +167,7 @@ impl<'a> Pilot<'a> {
     /// The present action is over.
     pub fn end(&mut self, result: &str) {
         self.watcher.said(self.base.time_s(), result);
+        self.watcher.told(self.base.time_s(), result);
         self.journal.end(result, self.base.time_s());
     }
 
@@ -225,6 +236,9 @@ impl<'a> Pilot<'a> {
     }
 
     /// Turns through `half_angle` to both sides of the present heading, looking every 30°, and comes back.
+    ///
+    /// # Errors
+    /// When the robot is stopped or held fast, its time is up or its link lost.
     pub fn sweep(&mut self, half_angle: f64) -> Result<(), Halt> {
         let ahead = self.pose().heading;
         let looks = (half_angle / (PI / 6.0)).round().max(1.0) as i32;
@@ -240,7 +254,12 @@ impl<'a> Pilot<'a> {
     /// Lets one control period pass at these velocities (m/s, rad/s).
     pub(super) fn tick(&mut self, linear: f64, angular: f64) -> Result<(), Halt> {
         self.base.drive(linear, angular, TICK_S)?;
+        let dead_time_s = self.foresight.dead_time_s();
         self.foresight.passed((linear, angular), self.base.time_s(), self.base.age_s(), self.base.velocity());
+        let found_s = self.foresight.dead_time_s();
+        if (found_s - dead_time_s).abs() > TELLING_S {
+            self.watcher.said(self.base.time_s(), &format!("the base answers after {:.0} ms", found_s * 1000.0));
+        }
         self.localizer.update(self.base, &self.outlines);
         let (time_s, pose) = (self.base.time_s(), self.pose());
         self.journal.passed(time_s, pose);
@@ -248,7 +267,7 @@ impl<'a> Pilot<'a> {
         if self.watcher.wants_stop() {
             return Err(Halt::Stopped);
         }
-        self.idle.passed((linear, angular), self.base.velocity(), time_s)?;
+        self.idle.passed((linear, angular), self.base.velocity(), time_s).map_err(Halt::Stuck)?;
         if time_s > self.time_limit_s { Err(Halt::Timeout) } else { Ok(()) }
     }
 }

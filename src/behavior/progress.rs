@@ -1,7 +1,6 @@
 //! What is asked for must come about: a robot that gets nowhere says so instead of going on until its time is up.
 
 use super::foresight::stands;
-use super::pilot::Halt;
 
 /// Without progress for so long it is stuck, seconds.
 pub(super) const PATIENCE_S: f64 = 20.0;
@@ -50,8 +49,11 @@ pub(super) struct Idle {
 }
 
 impl Idle {
-    /// Until `time_s` this was asked for, m/s and rad/s, and that reported.
-    pub fn passed(&mut self, asked: (f64, f64), reported: (f64, f64), time_s: f64) -> Result<(), Halt> {
+    /// Until `time_s` this was asked for, m/s and rad/s, and that reported: what is to be said when that goes on too long.
+    ///
+    /// # Errors
+    /// When it is held fast: much was asked for, and little came of it.
+    pub fn passed(&mut self, asked: (f64, f64), reported: (f64, f64), time_s: f64) -> Result<(), String> {
         if stands(asked) || !stands(reported) {
             self.since_s = None;
             return Ok(());
@@ -60,10 +62,10 @@ impl Idle {
             return Ok(());
         }
         let (linear, angular) = (asked.0 * 1000.0, asked.1.to_degrees());
-        Err(Halt::Stuck(format!(
+        Err(format!(
             "the wheels report zero for {WHEELS_S:.0} s although {linear:.0} mm/s and {angular:.0}°/s are asked for; \
              are the motors on, and is the robot free?"
-        )))
+        ))
     }
 }
 
@@ -93,7 +95,7 @@ mod tests {
     fn wheels_that_report_zero_although_motion_is_asked_for_are_told_with_what_was_asked() {
         let mut idle = Idle::default();
         let told = (0..200).find_map(|tick| idle.passed((0.3, 0.0), (0.0, 0.0), 0.1 * f64::from(tick)).err());
-        assert!(matches!(told, Some(Halt::Stuck(why)) if why.contains("300 mm/s")));
+        assert!(told.is_some_and(|why| why.contains("300 mm/s")));
         let mut idle = Idle::default();
         assert!((0..200).all(|tick| idle.passed((0.3, 0.0), (0.3, 0.0), 0.1 * f64::from(tick)).is_ok()));
     }

@@ -69,7 +69,7 @@ pub fn to_furniture(
         _ => {
             let angle = angle_of(direction, frame, place, reference.detection.yaw)?;
             let (a, b) = (force::Shape::from(&candidate.footprint), force::Shape::from(&reference.footprint));
-            Some(force::Relation::between(&a, &b).degree(angle).a * halving(gap, RELATED_HALVES_M))
+            Some(force::RelativePosition::between(&a, &b).degree(angle).a * halving(gap, RELATED_HALVES_M))
         }
     }
 }

@@ -1,4 +1,20 @@
 //! Which furniture the words mean: candidates ranked by how well they fit the reference–direction pairs.
+//!
+//! The order in which furniture of a room is tried (`static_tier` goes by it; the options of the last
+//! column leave the row out):
+//!
+//! | | what is tried | in which order | unless |
+//! |---|---|---|---|
+//! | first | the piece on which the object was recognised in passing: a *glance*, whatever the words prefer | – | `no_glance`, `blind` |
+//! | 1 | what the target's noun may name | by score: the product over the pairs, the nearness, how sure the piece is what the noun names, the attributes, the ordinal | |
+//! | 2 | all other table-like furniture | nearer and more ahead first | `no_fallback` |
+//! | 3 | places where something like the object was glimpsed | those glimpsed most often first | `no_glance` |
+//! | 4 | what shows itself from one lookout of the room after the other | as in 2 | `no_fallback` |
+//! | 5 | 1 to 3 once more, from other sides and through narrower gaps | as before | |
+//!
+//! The first row is asked again before each piece of rows 1, 2, 4 and 5. A piece tried is not tried again before
+//! row 5; of two with the same score the one seen first is tried first. What is in other rooms is tried after all of
+//! this room.
 
 use super::relation::{self, Place};
 pub use super::wanted::Wanted;
@@ -8,25 +24,36 @@ use crate::language::{Class, Lexicon};
 use crate::record::{Direction, Frame, Reference, SearchPair};
 
 /// What a reading in the first, second, third … frame counts: the likeliest is believed most.
+///
+/// A step is small against the difference between fitting (near 1) and not fitting (near 0), so a clear fit in a later
+/// frame beats a poor one in the first; it only decides between frames that fit about alike.
 const FRAME_WEIGHTS: [f64; 4] = [1.0, 0.85, 0.75, 0.65];
-/// What a pair counts whose reference has not been seen.
+/// What a pair counts whose reference has not been seen: midway, since that speaks neither for nor against. All
+/// candidates get the same, so it changes not their order but whether the best is thought plausible.
 const UNSEEN: f64 = 0.5;
-/// A pair that does not fit at all still leaves this: people err.
+/// A pair that does not fit at all still leaves this: people err. One wrong pair then costs a factor of twenty, more
+/// than nearness and attributes together can make good, and rules nothing out.
 const FLOOR: f64 = 0.05;
-/// An attribute that was said and not seen.
+/// An attribute that was said and not seen. Colours are told poorly in dim or tinted light: it may cost as much as
+/// the second frame, no more.
 const ATTRIBUTE_MISSED: f64 = 0.85;
-/// A category that the looks at a piece speak for by less than this is not considered.
+/// A category that the looks at a piece speak for by less than this is not considered: with six classes, a guess has
+/// one in six.
 const DOUBTFUL: f64 = 0.2;
-/// How likely what holds something small is a table, of what was not taken for one.
+/// How likely what holds something small is a table, of what was not taken for one: even odds, as shelves and
+/// counters hold small things too.
 const HOLDING: f64 = 0.5;
-/// From here on the category is not in doubt.
+/// From here on the category is not in doubt: what is left is the rest that votes of many looks never lose.
 const SURE: f64 = 0.98;
-/// A pair that the best candidate fits by less than this is not fulfilled.
+/// A pair that the best candidate fits by less than this is not fulfilled, and is named as what went wrong. Well above
+/// what a wrong direction leaves, well below what the right one gives in its least likely frame.
 const UNFULFILLED: f64 = 0.2;
-/// What a candidate behind the robot counts against one ahead: when nothing else was said, and where it breaks ties.
+/// What a candidate behind the robot counts against one ahead. When nothing else was said the way the robot faces is
+/// the best clue there is; beside pairs it only breaks ties, as much as one step of frames or two.
 const SIDEWAYS_ALONE: f64 = 0.2;
 const SIDEWAYS: f64 = 0.7;
-/// Nearness of a candidate halves its preference with every so many metres.
+/// Nearness of a candidate halves its preference with every so many metres: about as many as a room is long, so that
+/// a metre more costs 8 % and outweighs no pair.
 const NEAR_HALVES_M: f64 = 8.0;
 
 /// A candidate with its score and the reading behind it.

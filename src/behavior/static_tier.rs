@@ -43,8 +43,14 @@ impl Executive<'_> {
         let place = Place { room, arrived };
         let blame = blame(&self.pilot.beliefs, &task.wanted, place, self.lexicon)
             .unwrap_or_else(|| "what fits every pair was looked at in vain".to_string());
-        let count = self.approached.len();
-        let why = format!("no {object} on any of {count} pieces of furniture looked at; {blame}");
+        // In both rounds of a search, and from several sides, a piece is still one.
+        let looked_at = self.pilot.beliefs.furniture.iter().filter(|piece| !piece.looked_from.is_empty()).count();
+        let where_looked = match looked_at {
+            0 => "seen, and no piece of furniture could be looked at".to_string(),
+            1 => "on the one piece of furniture looked at".to_string(),
+            count => format!("on any of {count} pieces of furniture looked at"),
+        };
+        let why = format!("no {object} {where_looked}; {blame}");
         self.pilot.end(&why);
         Ok(Err(why))
     }
@@ -102,8 +108,9 @@ impl Executive<'_> {
         while let Some(at) = self.pilot.beliefs.glimpses.follow(name) {
             let Some(pose) = self.pilot.ways().better_view(at) else { continue };
             let spoken = name.replace('_', " ");
-            self.pilot
-                .because(format!("something like a {spoken} was seen at ({:.1}, {:.1}); going there", at.x, at.y));
+            let seen = format!("something like a {spoken} was seen");
+            let told = format!("{seen} at ({:.1}, {:.1}); going there", at.x, at.y);
+            self.pilot.because_plainly(told, &format!("{seen}: going there"));
             if !unless_blocked(self.pilot.go_to_pose(pose))? {
                 continue;
             }
@@ -130,7 +137,8 @@ impl Executive<'_> {
             }
             let reason =
                 missing.map_or("nothing here fits the words well".to_string(), |noun| format!("no {noun} seen yet"));
-            self.pilot.because(format!("{reason}; looking from ({:.1}, {:.1})", lookout.x, lookout.y));
+            let told = format!("{reason}; looking from ({:.1}, {:.1})", lookout.x, lookout.y);
+            self.pilot.because_plainly(told, &format!("{reason}: looking round from elsewhere"));
             self.look_round_at(lookout)?;
         }
         Ok(())
@@ -184,7 +192,7 @@ impl Executive<'_> {
             let ranked = rank(&self.pilot.beliefs, wanted, Place { room, arrived: here }, self.lexicon);
             let inside = |r: &&Ranked| room.outline.contains(self.pilot.beliefs.furniture[r.index].centre());
             let ranked: Vec<&Ranked> = ranked.iter().filter(inside).collect();
-            let Some(choice) = self.choose(task, &ranked) else { return Ok(None) };
+            let Some(choice) = self.choose(task, &ranked, wanted) else { return Ok(None) };
             if let Some(found) = self.check(choice, task.object)? {
                 return Ok(Some(found));
             }
@@ -192,7 +200,7 @@ impl Executive<'_> {
     }
 
     /// The furniture on which the object was seen in passing, else the best ranked.
-    fn choose(&mut self, task: &Task, ranked: &[&Ranked]) -> Option<usize> {
+    fn choose(&mut self, task: &Task, ranked: &[&Ranked], wanted: &Wanted) -> Option<usize> {
         let glances = !self.options.blind && !self.options.no_glance;
         let seen = task.object.filter(|_| glances).and_then(|name| self.pilot.beliefs.sighting(Some(name)));
         if let Some(index) = seen.and_then(|sighting| self.pilot.beliefs.under(vec2(sighting.x, sighting.y)))
@@ -212,8 +220,23 @@ impl Executive<'_> {
         for other in ranked.iter().skip(2).take(MOST_TOLD) {
             reason = format!("{reason}, {} {:.2}", self.pilot.beliefs.furniture[other.index].label(), other.score);
         }
-        self.pilot.because(reason);
+        let plain = self.plain_choice(ranked, wanted);
+        self.pilot.because_plainly(reason, &plain);
         Some(best.index)
+    }
+
+    /// A choice in words: "going to table 2, the best fit for “next to the chair”; table 1 is next".
+    fn plain_choice(&self, ranked: &[&Ranked], wanted: &Wanted) -> String {
+        let mut labels = ranked.iter().map(|r| self.pilot.beliefs.furniture[r.index].label());
+        let best = labels.next().unwrap_or_default();
+        let said: Vec<String> = wanted.pairs.iter().map(|pair| pair.pair.phrase()).collect();
+        let why = if said.is_empty() {
+            "which is nearest".to_string()
+        } else {
+            format!("the best fit for \"{}\"", said.join(", "))
+        };
+        let next = labels.next().map(|next| format!("; {next} would be next")).unwrap_or_default();
+        format!("going to {best}, {why}{next}")
     }
 
     /// Goes where the furniture's top can be seen, and looks for the object.

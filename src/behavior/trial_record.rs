@@ -1,8 +1,8 @@
-//! A trial in the record: the plan it is run by, the pose it ends at, and how it reads to people.
+//! A trial in the record: the plan it is run by, and the pose it ends at.
 
 use crate::geometry::{Pose, Vec2};
 use crate::map::RoomMap;
-use crate::record::{Plan, Record, Rounded, StageError, Trial, doubts_of};
+use crate::record::{Action, Note, Outcome, Plan, Record, Rounded, StageError, Trial};
 
 /// A trial with what its files want to know beside the record.
 #[derive(Clone, Debug)]
@@ -13,9 +13,14 @@ pub struct Run {
     pub final_pose: Pose,
     /// Where the object was recognised.
     pub found_at: Option<Vec2>,
+    /// What was looked for, where it was named.
+    pub sought: Option<String>,
 }
 
 /// The plan of a record, made for this home.
+///
+/// # Errors
+/// When there is no plan, it is none, or it was made for another map.
 pub fn plan_of(record: &Record, map: &RoomMap) -> Result<Plan, StageError> {
     let plan: Plan = record.require_part("pipe the record through `plan` first")?;
     if plan.map != map.name {
@@ -26,24 +31,23 @@ pub fn plan_of(record: &Record, map: &RoomMap) -> Result<Plan, StageError> {
     Ok(plan)
 }
 
-/// A trial for people.
-pub fn text_of(record: &Record) -> Result<String, StageError> {
-    let trial: Trial = record.require_part("it is what `drive` adds")?;
-    let mut lines: Vec<String> = record.get::<String>("text")?.into_iter().collect();
-    for action in &trial.actions {
-        let (start, end) = (action.start_s.0, action.end_s.0);
-        lines.push(format!("{start:6.1}–{end:<6.1} {:7} {}", action.action, action.result));
-        lines.extend(action.why.split("; ").filter(|why| !why.is_empty()).map(|why| format!("{:22} {why}", "")));
+/// The object that a plan looks for.
+pub fn object_of(plan: &Plan) -> Option<&str> {
+    plan.actions.iter().find_map(|action| match action {
+        Action::Find { object } => object.as_deref(),
+        _ => None,
+    })
+}
+
+/// How a stage did that ran this trial: a robot that looked everywhere in vain was driven, one that could not be driven
+/// to the end of its plan was not, and whoever waits for the program's exit code hears of it.
+pub fn note_of(trial: &Trial) -> Note {
+    match trial.outcome {
+        Outcome::LinkLost | Outcome::Stopped | Outcome::Stuck => {
+            Note::Lossy(format!("the robot was not driven to the end of its plan: {}", trial.why))
+        }
+        Outcome::Found | Outcome::Arrived | Outcome::NotFound | Outcome::Blocked | Outcome::Timeout => Note::Done,
     }
-    let outcome = format!("{:?}", trial.outcome).to_lowercase();
-    let (metres, seconds) = (trial.distance_m.0, trial.duration_s.0);
-    lines.push(format!("{outcome}: {} ({metres:.1} m, {seconds:.0} s, {} collisions)", trial.why, trial.collisions));
-    lines.extend(trial.delivered.iter().map(|delivery| {
-        let what = delivery.objects.join(" and ").replace('_', " ");
-        format!("delivered: {what} {}", delivery.to.phrase())
-    }));
-    lines.extend(doubts_of(record)?.into_iter().map(|doubt| format!("  !  {doubt}")));
-    Ok(lines.join("\n"))
 }
 
 /// A pose as records hold it.

@@ -18,6 +18,8 @@ pub trait Watcher {
     fn grid(&mut self, _time_s: f64, _grid: &ClearanceGrid) {}
     /// A decision or an event, with its reason.
     fn said(&mut self, _time_s: f64, _text: &str) {}
+    /// The same in plain words, without figures.
+    fn told(&mut self, _time_s: f64, _plain: &str) {}
     /// What the robot believes of the furniture has changed.
     fn furniture(&mut self, _time_s: f64, _furniture: &[Furniture]) {}
     /// Asked at every tick: end the trial now?
@@ -31,3 +33,41 @@ pub trait Watcher {
 pub struct Silent;
 
 impl Watcher for Silent {}
+
+/// Several who look on.
+#[derive(Default)]
+pub struct Several<'a>(pub Vec<&'a mut dyn Watcher>);
+
+impl Watcher for Several<'_> {
+    fn sensed(&mut self, base: &dyn MobileBase) {
+        self.0.iter_mut().for_each(|watcher| watcher.sensed(base));
+    }
+
+    fn frame(&mut self, time_s: f64, believed: Pose, frame: &RgbdFrame) {
+        self.0.iter_mut().for_each(|watcher| watcher.frame(time_s, believed, frame));
+    }
+
+    fn seen(&mut self, time_s: f64, view: &View) {
+        self.0.iter_mut().for_each(|watcher| watcher.seen(time_s, view));
+    }
+
+    fn grid(&mut self, time_s: f64, grid: &ClearanceGrid) {
+        self.0.iter_mut().for_each(|watcher| watcher.grid(time_s, grid));
+    }
+
+    fn said(&mut self, time_s: f64, text: &str) {
+        self.0.iter_mut().for_each(|watcher| watcher.said(time_s, text));
+    }
+
+    fn told(&mut self, time_s: f64, plain: &str) {
+        self.0.iter_mut().for_each(|watcher| watcher.told(time_s, plain));
+    }
+
+    fn furniture(&mut self, time_s: f64, furniture: &[Furniture]) {
+        self.0.iter_mut().for_each(|watcher| watcher.furniture(time_s, furniture));
+    }
+
+    fn wants_stop(&self) -> bool {
+        self.0.iter().any(|watcher| watcher.wants_stop())
+    }
+}

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, Failure, FromLog, Intake, Program};
+use spatial_fetch::cli::{self, Common, CsvLines, Exit, Failure, FromLog, Inputs, Intake, Line, Program, Source};
 use spatial_fetch::language::{Chunker, lexicon_with};
 use spatial_fetch::record::{Chunk, Token};
 
@@ -25,10 +25,29 @@ struct Arguments {
     /// Nouns to add to the lexicon: lines of name, class, other names, separated by tabs
     #[arg(long, value_name = "FILE")]
     lexicon: Option<PathBuf>,
+    /// Read tables of comma-separated values: COLUMN holds the descriptions, the other columns are kept
+    #[arg(long, value_name = "COLUMN", conflicts_with_all = ["from"])]
+    csv: Option<String>,
     #[command(flatten)]
     log: FromLog,
     #[command(flatten)]
     common: Common,
+}
+
+impl Arguments {
+    /// Lines, records of a log, or rows of tables.
+    fn source(&self) -> Result<Box<dyn Source<Line>>, Failure> {
+        if let Some(column) = &self.csv {
+            return Ok(Box::new(CsvLines::new(Inputs::new(&self.common.files, self.common.keep_going), column)));
+        }
+        let is_table = |file: &&PathBuf| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+        if let Some(table) = self.common.files.iter().find(is_table) {
+            let message =
+                format!("{}: to read a table, name the column of its descriptions: --csv COLUMN", table.display());
+            return Err(Failure::Usage(message));
+        }
+        self.log.lines(&self.common, "/fetch/input")
+    }
 }
 
 /// What `chunk` adds to a record.
@@ -54,7 +73,7 @@ impl Program for Arguments {
         let lexicon = self.lexicon.as_deref().map(lexicon_with).transpose();
         let lexicon = lexicon.map_err(|error| Failure::Failed(error.to_string()))?.map(Arc::new);
         let chunker = Chunker { lexicon, explain: self.explain };
-        let mut lines = self.log.lines(&self.common.files, "/fetch/input")?;
+        let mut lines = self.source()?;
         cli::run_filter_on(Self::NAME, &self.common, lines.as_mut(), Intake::RecordsOrText, &chunker)
     }
 }

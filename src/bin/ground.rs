@@ -44,7 +44,7 @@ impl Program for Arguments {
             return sink.finish().map(|()| Exit::Done);
         }
         let stage = GroundStage { grounder: self.settings.grounder().map_err(failed)?, answer: self.settings.answer };
-        let mut lines = self.log.lines(&self.common.files, "/fetch/chunk")?;
+        let mut lines = self.log.lines(&self.common, "/fetch/chunk")?;
         cli::run_filter_on(Self::NAME, &self.common, lines.as_mut(), Intake::Records, &stage)
     }
 }

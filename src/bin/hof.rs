@@ -2,7 +2,8 @@
 
 use clap::Parser;
 use spatial_fetch::cli::{self, Common, Exit, Failure, Intake, Program};
-use spatial_fetch::force::{Describer, ForceName, FrameName, Pictures, raster::Fuzzy};
+use spatial_fetch::files::Claims;
+use spatial_fetch::force::{AxesName, Describer, ForceName, Pictures, raster::Fuzzy};
 
 /// Histogram of forces: where is A, seen from B?
 ///
@@ -18,7 +19,7 @@ struct Arguments {
     directions: u32,
     /// Frame that names directions: map, robot, intrinsic, viewer, facing; all but map read "heading" (radians)
     #[arg(long, value_name = "FRAME", default_value = "map")]
-    frame: FrameName,
+    frame: AxesName,
     /// How memberships of fuzzy cells combine: product or minimum
     #[arg(long, value_name = "HOW", default_value = "product")]
     fuzzy: Fuzzy,
@@ -39,7 +40,7 @@ impl Program for Arguments {
     }
     fn run(self) -> Result<Exit, Failure> {
         let Self { forces, directions, frame, fuzzy, svg, common } = self;
-        let pictures = svg.map(|folder| Pictures { folder, overwrite: common.force });
+        let pictures = svg.map(|folder| Pictures { folder, overwrite: common.force, claims: Claims::default() });
         let stage = Describer { forces, directions: directions as usize, frame, fuzzy, pictures };
         let intake = Intake::Own(r#"`hof` reads two shapes a line, {"a": …, "b": …}; see --help"#);
         cli::run_filter(Self::NAME, &common, intake, &stage)

@@ -42,7 +42,7 @@ impl Program for Arguments {
     fn run(self) -> Result<Exit, Failure> {
         let map = self.map.map_or_else(|| Ok(RoomMap::apartment()), |which| load_map(&which));
         let planner = Planner::new(map.map_err(|error| Failure::Failed(error.to_string()))?);
-        let mut lines = self.log.lines(&self.common.files, "/fetch/ground")?;
+        let mut lines = self.log.lines(&self.common, "/fetch/ground")?;
         cli::run_filter_on(Self::NAME, &self.common, lines.as_mut(), Intake::Records, &planner)
     }
 }

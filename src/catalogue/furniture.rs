@@ -8,7 +8,7 @@ use super::{Color, Size, size};
 
 /// What a scene composes a piece of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum FurnitureShape {
     /// A rectangular top on four legs.
     Table,
     /// A round top on a column.
@@ -108,7 +108,7 @@ pub struct Category {
     /// Which of the six classes it is of; a seat is read by its own front.
     pub class: FurnitureClass,
     /// How a scene builds it.
-    pub shape: Shape,
+    pub shape: FurnitureShape,
     /// Its usual size.
     pub size: Size,
     /// Its usual colour.
@@ -145,7 +145,8 @@ const TALL: Looks = Looks { tall: true, ..PLAIN };
 
 impl Category {
     /// What a category that is not known looks like; a scene with one is refused before anyone sees it.
-    pub const UNKNOWN: Self = Self { name: "unknown", noun: "unknown", shape: Shape::Cabinet, color: [128; 3], ..ROW };
+    pub const UNKNOWN: Self =
+        Self { name: "unknown", noun: "unknown", shape: FurnitureShape::Cabinet, color: [128; 3], ..ROW };
 }
 
 /// What every row starts from.
@@ -154,7 +155,7 @@ const ROW: Category = Category {
     noun: "",
     also_called: &[],
     class: FurnitureClass::TableLike,
-    shape: Shape::Cabinet,
+    shape: FurnitureShape::Cabinet,
     size: size(0.5, 0.5, 0.5),
     color: WOOD,
     attributes: &[],
@@ -168,9 +169,14 @@ const ROW: Category = Category {
 };
 
 /// A table: a top without a front on which things lie.
-const TABLE: Category =
-    Category { shape: Shape::Table, orientation: Orientation::ShortEdge, holds: Holds::Usually, color: OAK, ..ROW };
-const SEAT: Category = Category { class: FurnitureClass::Seat, shape: Shape::Chair, ..ROW };
+const TABLE: Category = Category {
+    shape: FurnitureShape::Table,
+    orientation: Orientation::ShortEdge,
+    holds: Holds::Usually,
+    color: OAK,
+    ..ROW
+};
+const SEAT: Category = Category { class: FurnitureClass::Seat, shape: FurnitureShape::Chair, ..ROW };
 const STORAGE: Category = Category { class: FurnitureClass::Storage, ..ROW };
 
 /// All categories. Those with a family come first: a model file keeps their order.
@@ -242,7 +248,7 @@ pub const CATEGORIES: &[Category] = &[
         name: "armchair",
         noun: "armchair",
         also_called: &["recliner"],
-        shape: Shape::Couch,
+        shape: FurnitureShape::Couch,
         size: size(0.75, 0.85, 0.9),
         color: CLOTH,
         attributes: &["blue"],
@@ -255,7 +261,7 @@ pub const CATEGORIES: &[Category] = &[
         name: "stool",
         noun: "stool",
         also_called: &["ottoman", "footstool", "music_stool", "step_stool", "bench"],
-        shape: Shape::Stool,
+        shape: FurnitureShape::Stool,
         size: size(0.36, 0.36, 0.45),
         attributes: &["small", "brown"],
         orientation: Orientation::None,
@@ -270,7 +276,7 @@ pub const CATEGORIES: &[Category] = &[
         noun: "couch",
         also_called: &["sofa", "sofa_bed", "futon", "chaise_longue", "loveseat"],
         class: FurnitureClass::Couch,
-        shape: Shape::Couch,
+        shape: FurnitureShape::Couch,
         size: size(0.73, 2.06, 0.92),
         color: CLOTH,
         attributes: &["blue"],
@@ -284,7 +290,7 @@ pub const CATEGORIES: &[Category] = &[
         noun: "bed",
         also_called: &["bunk_bed"],
         class: FurnitureClass::Bed,
-        shape: Shape::Bed,
+        shape: FurnitureShape::Bed,
         size: size(2.0, 1.1, 0.55),
         color: LINEN,
         attributes: &["white"],
@@ -369,7 +375,7 @@ pub const CATEGORIES: &[Category] = &[
         noun: "lamp",
         also_called: &["table_lamp", "floor_lamp"],
         class: FurnitureClass::Lamp,
-        shape: Shape::Lamp,
+        shape: FurnitureShape::Lamp,
         size: size(0.4, 0.4, 1.5),
         color: WHITE,
         attributes: &["tall"],
@@ -381,7 +387,7 @@ pub const CATEGORIES: &[Category] = &[
     Category {
         name: "round_table",
         noun: "table",
-        shape: Shape::RoundTable,
+        shape: FurnitureShape::RoundTable,
         size: size(0.6, 0.6, 0.55),
         attributes: &["round", "small", "brown"],
         ..TABLE
@@ -389,7 +395,7 @@ pub const CATEGORIES: &[Category] = &[
     Category {
         name: "hexagon_table",
         noun: "table",
-        shape: Shape::HexagonTable,
+        shape: FurnitureShape::HexagonTable,
         size: size(0.95, 0.82, 0.52),
         color: WOOD,
         attributes: &["hexagonal", "brown"],

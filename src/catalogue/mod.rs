@@ -9,7 +9,7 @@ mod furniture;
 mod objects;
 
 pub use furniture::{
-    CATEGORIES, Category, FAMILIES, FurnitureClass, Holds, Looks, Orientation, Shape, category, class_of,
+    CATEGORIES, Category, FAMILIES, FurnitureClass, FurnitureShape, Holds, Looks, Orientation, category, class_of,
 };
 pub use objects::{OBJECTS, SmallObject, object};
 

@@ -1,5 +1,6 @@
 //! The options that all seven binaries spell alike.
 
+use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 
 use clap_complete::Shell;
@@ -8,7 +9,7 @@ use clap_complete::Shell;
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Common {
     /// Input files; `-` or none reads standard input
-    #[arg(value_name = "FILE")]
+    #[arg(value_name = "FILE", help_heading = "Input")]
     pub files: Vec<PathBuf>,
 
     /// Write to this file instead of standard output
@@ -27,7 +28,7 @@ pub struct Common {
     #[arg(long, help_heading = "Common options")]
     pub keep_going: bool,
 
-    /// What to write: JSON lines for programs, text for people
+    /// What to write: JSON lines for programs, text for people, rows for tables
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t, help_heading = "Common options")]
     pub format: Format,
 
@@ -39,9 +40,9 @@ pub struct Common {
     #[arg(short, long, help_heading = "Common options")]
     pub quiet: bool,
 
-    /// Say more on standard error
-    #[arg(short, long, help_heading = "Common options")]
-    pub verbose: bool,
+    /// Tell on standard error, in words, what is made of each record; given twice, with the figures behind it
+    #[arg(short, long, action = clap::ArgAction::Count, help_heading = "Common options")]
+    pub verbose: u8,
 
     /// Colour in messages and text; NO_COLOR is respected
     #[arg(long, value_enum, value_name = "WHEN", default_value_t, help_heading = "Common options")]
@@ -64,6 +65,8 @@ pub enum Format {
     Json,
     /// For people.
     Text,
+    /// A row for each record under a heading, for R, pandas and spreadsheets: of `drive`, and of `evaluate score`.
+    Csv,
 }
 
 /// When to colour.
@@ -76,4 +79,38 @@ pub enum ColorChoice {
     Always,
     /// Not at all.
     Never,
+}
+
+impl Common {
+    /// How records are written under these options.
+    pub(super) fn style(&self) -> Style {
+        let to_terminal = self.output.is_none() && io::stdout().is_terminal();
+        Style {
+            format: self.format,
+            color: self.format == Format::Text && self.color.holds(to_terminal),
+            tells: self.verbose > 0 && !self.quiet && self.format == Format::Json,
+        }
+    }
+}
+
+/// How a record is written.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Style {
+    /// In which form.
+    pub format: Format,
+    /// Whether text is coloured.
+    pub color: bool,
+    /// Whether what a record has come to is told on standard error as well.
+    pub tells: bool,
+}
+
+impl ColorChoice {
+    /// Whether to colour what goes to a terminal, or elsewhere.
+    pub(super) fn holds(self, to_terminal: bool) -> bool {
+        match self {
+            Self::Always => true,
+            Self::Never => false,
+            Self::Auto => to_terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+        }
+    }
 }

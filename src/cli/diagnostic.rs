@@ -2,7 +2,8 @@
 
 use std::io::{self, IsTerminal, Write};
 
-use super::{ColorChoice, Common, Line};
+use super::{Common, Line};
+use crate::escape::{for_line, for_terminal};
 
 /// A message about one place of the input.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,29 +34,32 @@ pub struct Reporter {
 impl Reporter {
     /// A reporter for `program` under the given options.
     pub fn new(program: &'static str, common: &Common) -> Self {
-        let color = match common.color {
-            ColorChoice::Always => true,
-            ColorChoice::Never => false,
-            ColorChoice::Auto => {
-                io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
-            }
-        };
+        let color = common.color.holds(io::stderr().is_terminal());
         Self { program, color, quiet: common.quiet }
     }
 
     /// Reports what went wrong with a record.
     pub fn error(&self, diagnostic: &Diagnostic) {
-        self.line("31", &format!("{}: {}{}", diagnostic.place, diagnostic.message, id_suffix(diagnostic)));
+        self.line("31", &format!("{}: {}{}", for_line(&diagnostic.place), diagnostic.message, id_suffix(diagnostic)));
     }
 
     /// Reports what was lost on the way.
     pub fn warning(&self, diagnostic: &Diagnostic) {
-        self.line("33", &format!("{}: warning: {}{}", diagnostic.place, diagnostic.message, id_suffix(diagnostic)));
+        self.line(
+            "33",
+            &format!("{}: warning: {}{}", for_line(&diagnostic.place), diagnostic.message, id_suffix(diagnostic)),
+        );
     }
 
     /// Reports what ended the run.
     pub fn fatal(&self, message: &str) {
         self.line("31", message);
+    }
+
+    /// What a record came to, as it is asked for: without the program's name before each line.
+    pub fn tell(&self, text: &str) {
+        // Nowhere left to complain when standard error is closed.
+        let _ = io::stderr().lock().write_all(format!("{}\n", for_terminal(text)).as_bytes());
     }
 
     /// A remark that `--quiet` leaves out.
@@ -66,7 +70,7 @@ impl Reporter {
     }
 
     fn line(&self, color: &str, message: &str) {
-        let program = self.program;
+        let (program, message) = (self.program, for_terminal(message));
         let text = if self.color {
             format!("\x1b[{color}m{program}:\x1b[0m {message}\n")
         } else {

@@ -42,7 +42,7 @@ impl Failure {
 impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
         match error {
-            FileError::Exists(_) => Self::Usage(error.to_string()),
+            FileError::Exists(_) | FileError::Twice(..) => Self::Usage(error.to_string()),
             FileError::System(name, error) => Self::writing(&name, &error),
         }
     }

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::within;
 use crate::simulation::camera::{Kinect, KinectFaults, Light};
-use crate::simulation::{Perception, Settings};
+use crate::simulation::{Perception, TrialSettings};
 
 /// Multiples of the published noise that make sense.
 pub(super) const DEPTH_NOISE: RangeInclusive<f64> = 0.0..=10.0;
@@ -33,8 +33,8 @@ pub struct EyeArguments {
 
 impl EyeArguments {
     /// Settings with these eyes, else the usual ones.
-    pub fn settings(&self) -> Settings {
-        Settings { perception: self.perception, kinect: self.kinect(), ..Settings::default() }
+    pub fn settings(&self) -> TrialSettings {
+        TrialSettings { perception: self.perception, kinect: self.kinect(), ..TrialSettings::default() }
     }
 
     /// The simulated camera.

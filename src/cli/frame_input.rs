@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 
-use super::filter::{Outcome, finish, run_source};
+use super::filter::{Outcome, finish, refuse_rows, run_source};
 use super::log_input::Bytes;
 use super::{Common, Diagnostic, Exit, Failure, FromLog, Inputs, Line, Source};
 use crate::perception::Told;
@@ -28,20 +28,23 @@ pub enum FrameInput {
 
 impl FrameInput {
     /// Looks at the first bytes: an MCAP log is read as one, wherever it comes from.
-    /// `told` is what is known of the camera of frames whose log does not tell where it was.
+    /// `told` is what is known of the camera of frames whose log does not tell where it was; a log that cannot be read
+    /// is told and passed over when it shall `keep_going`.
     ///
     /// # Errors
     /// When standard input begins as a log and goes on as none.
-    pub fn open(files: &[PathBuf], options: &FromLog, told: Told) -> Result<Self, Failure> {
-        let logs = |paths: Vec<PathBuf>| FrameLogs::new(paths, options.clone(), told);
+    pub fn open(files: &[PathBuf], options: &FromLog, told: Told, keep_going: bool) -> Result<Self, Failure> {
+        let logs = |paths: Vec<PathBuf>| FrameLogs { keep_going, ..FrameLogs::new(paths, options.clone(), told) };
         match (&options.from, files) {
             (Some(path), _) => Ok(Self::Logs(Box::new(logs(vec![path.clone()])))),
             (None, [first, ..]) if first != Path::new("-") => {
-                let is_log = File::open(first).is_ok_and(|file| is_regular(&file) && begins_as_log(file).0);
-                if is_log {
+                let is_log =
+                    |path: &PathBuf| File::open(path).is_ok_and(|file| is_regular(&file) && begins_as_log(file).0);
+                // One that is missing does not say what the others are.
+                if is_log(first) || keep_going && !first.exists() && files.iter().any(is_log) {
                     Ok(Self::Logs(Box::new(logs(files.to_vec()))))
                 } else {
-                    Ok(Self::Lines(Inputs::new(files)))
+                    Ok(Self::Lines(Inputs::new(files, keep_going)))
                 }
             }
             _ => {
@@ -75,6 +78,8 @@ pub struct FrameLogs {
     waiting: VecDeque<Vec<PathBuf>>,
     options: FromLog,
     told: Told,
+    /// Whether a log that cannot be read is told and passed over.
+    keep_going: bool,
     current: Option<Current>,
     count: usize,
     lost: Vec<Diagnostic>,
@@ -112,7 +117,8 @@ impl FrameItem {
 
 impl FrameLogs {
     fn new(paths: Vec<PathBuf>, options: FromLog, told: Told) -> Self {
-        Self { waiting: recordings(paths).into(), options, told, current: None, count: 0, lost: Vec::new() }
+        let waiting = recordings(paths).into();
+        Self { waiting, options, told, keep_going: false, current: None, count: 0, lost: Vec::new() }
     }
 
     fn begin_stream(&mut self, bytes: Bytes) -> Result<(), Failure> {
@@ -129,14 +135,27 @@ impl FrameLogs {
     /// Begins the next recording; false when there is none.
     fn begin_next(&mut self) -> Result<bool, Failure> {
         let Some(paths) = self.waiting.pop_front() else { return Ok(false) };
-        match paths.as_slice() {
+        match (self.open_next(&paths), paths.first()) {
+            (Err(Failure::Failed(what)), Some(path)) if self.keep_going => {
+                let place = path.display().to_string();
+                let what = what.strip_prefix(&format!("{place}: ")).unwrap_or(&what);
+                let message = format!("{what}; its frames are left out");
+                self.lost.push(Diagnostic { place, id: None, message });
+            }
+            (begun, _) => begun?,
+        }
+        Ok(true)
+    }
+
+    fn open_next(&mut self, paths: &[PathBuf]) -> Result<(), Failure> {
+        match paths {
             [path] if path == Path::new("-") => self.begin_stream(Box::new(io::stdin()))?,
             _ => {
                 let is_pipe = paths.iter().any(|path| !path.metadata().is_ok_and(|found| found.is_file()));
-                self.begin(Parts::files(paths, self.options.recover).map_err(failed)?, is_pipe);
+                self.begin(Parts::files(paths.to_vec(), self.options.recover).map_err(failed)?, is_pipe);
             }
         }
-        Ok(true)
+        Ok(())
     }
 
     fn next_frame(&mut self) -> Result<Option<FrameItem>, Failure> {
@@ -188,6 +207,9 @@ impl Source<FrameItem> for FrameLogs {
 }
 
 /// Runs a seeing stage over all frames of the logs: one record a frame, with its times and the robot's pose.
+///
+/// # Errors
+/// When a log cannot be read, the output cannot be written, or a frame cannot be processed and no one said to go on.
 pub fn run_frames(
     program: &'static str,
     common: &Common,
@@ -195,6 +217,8 @@ pub fn run_frames(
     stage: &dyn Stage,
     see: &See,
 ) -> Result<Exit, Failure> {
+    refuse_rows(program, common, stage)?;
+    let style = common.style();
     run_source(program, common, logs, &|item: &FrameItem| {
         let mut record = Record::default();
         record.set("id", &item.ordinal.to_string());
@@ -203,7 +227,7 @@ pub fn run_frames(
         record.set("log_ns", &item.timed.log_ns);
         record.set("robot_pose", &item.timed.robot);
         let mut outcome = Outcome::default();
-        finish(&item.line(), record, common.format, stage, &|record| see(&item.timed, record), &mut outcome);
+        finish(&item.line(), record, style, stage, &|record| see(&item.timed, record), &mut outcome);
         outcome
     })
 }

@@ -19,6 +19,9 @@ pub struct HomeArguments {
 
 impl HomeArguments {
     /// The home they name; the apartment where they name none.
+    ///
+    /// # Errors
+    /// When there is no such home, or its files cannot be read or describe none.
     pub fn load(&self) -> Result<Home, Failure> {
         if self.map.is_some() && self.world.is_none() {
             return Err(Failure::Usage("--map needs the --world that stands on it".to_string()));
@@ -27,6 +30,9 @@ impl HomeArguments {
     }
 
     /// What may be known of where a real robot is: the rooms alone.
+    ///
+    /// # Errors
+    /// When there is no such home, or its room map cannot be read or is none.
     pub fn rooms(&self) -> Result<RoomMap, Failure> {
         self.map.as_deref().map_or_else(|| Ok(RoomMap::apartment()), load_map).map_err(failed)
     }

@@ -5,7 +5,7 @@ use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{Diagnostic, Failure, Inputs, Line, Source};
+use super::{Common, Diagnostic, Failure, Inputs, Line, Source};
 use crate::recording::{LogReader, RecordReader, Window};
 
 /// A log as bytes: a file or a pipe.
@@ -37,11 +37,14 @@ pub struct FromLog {
 }
 
 impl FromLog {
-    /// The lines of a filter: those of `files`, or the records the log has on the topic asked for, else on `topic`.
-    pub fn lines(&self, files: &[PathBuf], topic: &str) -> Result<Box<dyn Source<Line>>, Failure> {
+    /// The lines of a filter: those of the files, or the records the log has on the topic asked for, else on `topic`.
+    ///
+    /// # Errors
+    /// When a file or log cannot be opened, or the log is no MCAP.
+    pub fn lines(&self, common: &Common, topic: &str) -> Result<Box<dyn Source<Line>>, Failure> {
         let Some(path) = &self.from else {
             self.expect_unused()?;
-            return Ok(Box::new(Inputs::new(files)));
+            return Ok(Box::new(Inputs::new(&common.files, common.keep_going)));
         };
         let topic = match self.topic.as_slice() {
             [] => topic,

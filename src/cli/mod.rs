@@ -5,10 +5,12 @@
 //! stage computes.
 
 mod arguments;
+mod csv_input;
 mod diagnostic;
 mod exit;
 mod eyes;
 mod filter;
+mod foreign;
 mod frame_input;
 mod home;
 mod input;
@@ -17,14 +19,17 @@ mod line;
 mod log_input;
 mod number;
 mod output;
+mod paint;
 mod program;
 mod progress;
+mod rows;
 mod scores;
 mod source;
 mod threads;
 mod trial_options;
 
 pub use arguments::{ColorChoice, Common, Format};
+pub use csv_input::CsvLines;
 pub use diagnostic::{Diagnostic, Reporter};
 pub use exit::{Exit, Failure};
 pub use eyes::EyeArguments;
@@ -32,7 +37,7 @@ pub use filter::{Intake, record_of, run_filter, run_filter_on};
 pub use frame_input::{FrameInput, FrameItem, FrameLogs, See, run_frames};
 pub use home::HomeArguments;
 pub use input::{Inputs, read_file};
-pub use interrupt::on_interrupt;
+pub use interrupt::{Pause, on_interrupt, on_suspend};
 pub use line::Line;
 pub use log_input::FromLog;
 pub use number::within;
@@ -45,4 +50,4 @@ pub use scores::{
 };
 pub use source::Source;
 pub use threads::{counted_on_threads, on_threads};
-pub use trial_options::{OptionsError, TIME_LIMIT_S, TrialOptions};
+pub use trial_options::{DEAD_TIME_S, JITTER_S, OptionsError, TIME_LIMIT_S, TrialOptions};

@@ -3,6 +3,9 @@
 use std::ops::RangeInclusive;
 
 /// Reads such a number; what is none, or not a number at all, is told with the range.
+///
+/// # Errors
+/// When the text is no number or lies outside the range.
 pub fn within(range: RangeInclusive<f64>) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
     move |text| {
         let value: f64 = text.parse().map_err(|_| "not a number".to_string())?;

@@ -10,7 +10,7 @@ use rustix::event::{PollFd, PollFlags, poll};
 use rustix::time::Timespec;
 use tempfile::NamedTempFile;
 
-use super::{Common, Failure, on_interrupt};
+use super::{Common, Failure, Reporter, on_interrupt};
 use crate::files;
 
 /// How long an interrupt waits for a write: a reader that has stalled must not keep us alive.
@@ -34,11 +34,17 @@ pub struct SharedSink(Arc<Mutex<Sink>>);
 
 impl SharedSink {
     /// Writes whole lines and hands them on at once.
+    ///
+    /// # Errors
+    /// When the output takes no more.
     pub fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
         self.with(|sink| sink.write(bytes))
     }
 
     /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// When the file cannot be put in its place.
     pub fn finish(&self) -> Result<(), Failure> {
         self.with(Sink::finish)
     }
@@ -50,13 +56,17 @@ impl SharedSink {
 
     /// Gives up when the process is told to stop: after the write that is under way, but without waiting for one
     /// that is stuck. The sink is not kept alive for that, so that it is also given up when a run ends early.
-    pub fn discard_on_interrupt(&self) {
+    /// What is then not there is said.
+    pub fn discard_on_interrupt(&self, reporter: Reporter) {
         let sink = Arc::downgrade(&self.0);
         on_interrupt(move || {
             let Some(sink) = sink.upgrade() else { return };
             let give_up = Instant::now() + STUCK_AFTER;
             while Instant::now() < give_up {
                 if let Ok(mut sink) = sink.try_lock() {
+                    if matches!(sink.target, Target::File { .. }) {
+                        reporter.fatal(&format!("interrupted: {} was not written", sink.name));
+                    }
                     sink.target = Target::Closed;
                     return;
                 }
@@ -71,12 +81,23 @@ impl SharedSink {
 }
 
 /// Opens what `--output` names, or standard output.
+///
+/// # Errors
+/// When the file exists and is not to be overwritten, or its folder cannot be written to.
 pub fn open_output(common: &Common) -> Result<SharedSink, Failure> {
     let sink = match &common.output {
         None => Sink { name: "standard output".to_string(), target: Target::Stream(Box::new(io::stdout())) },
+        Some(path) if is_standard_output(path) => {
+            Sink { name: path.display().to_string(), target: Target::Stream(Box::new(io::stdout())) }
+        }
         Some(path) => Sink { name: path.display().to_string(), target: open_file(path, common.force)? },
     };
     Ok(SharedSink(Arc::new(Mutex::new(sink))))
+}
+
+/// The names by which the system knows standard output, whatever it is: a file behind it is not to be replaced.
+fn is_standard_output(path: &Path) -> bool {
+    ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
 }
 
 /// Whether whoever read standard output has gone.

@@ -7,7 +7,7 @@ use clap::{Parser, ValueEnum};
 use clap_complete::Shell;
 use schemars::Schema;
 
-use super::interrupt::yield_to_interrupt;
+use super::interrupt::{listen, yield_to_interrupt};
 use super::{Common, Exit, Failure, Reporter, exit};
 
 /// A binary: its arguments, what it adds to a record, and its work.
@@ -37,6 +37,7 @@ pub fn command_of<P: Program>() -> clap::Command {
 
 /// Parses the arguments, runs the binary, reports how it ended.
 pub fn main<P: Program>() -> ExitCode {
+    listen();
     if let Some(text) = about_itself::<P>() {
         return exit::code(&print(&text));
     }
@@ -60,7 +61,7 @@ pub fn main<P: Program>() -> ExitCode {
 
 fn dispatch<P: Program>(program: P) -> Result<Exit, Failure> {
     if program.common().schema {
-        return print(&format!("{:#}\n", P::schema().as_value()));
+        return print(&schema::<P>());
     }
     if let Some(shell) = program.common().completions {
         return print(&completions(&mut command_of::<P>(), shell));
@@ -68,12 +69,15 @@ fn dispatch<P: Program>(program: P) -> Result<Exit, Failure> {
     if program.reads_standard_input() && io::stdin().is_terminal() {
         // Usage on standard error, for someone who typed the bare name.
         let _ = writeln!(io::stderr(), "{}", command_of::<P>().render_help());
-        return Err(Failure::Usage("no input: name a file, or pipe records in".to_string()));
+        let name = P::NAME;
+        let typed =
+            format!("no input: name a file, or pipe records in; `{name} -` reads what you type here, a line each");
+        return Err(Failure::Usage(typed));
     }
     program.run()
 }
 
-/// What `--man [SUBCOMMAND]` and `--completions SHELL` print before anything else is parsed: they need no subcommand.
+/// What `--man [SUBCOMMAND]`, `--schema` and `--completions SHELL` print before anything else is parsed: they need no subcommand.
 fn about_itself<P: Program>() -> Option<String> {
     let mut arguments = std::env::args().skip(1);
     let (option, value) = (arguments.next()?, arguments.next());
@@ -90,9 +94,14 @@ fn about_itself<P: Program>() -> Option<String> {
             let _ = clap_mangen::Man::new(page).render(&mut roff);
             Some(String::from_utf8_lossy(&roff).into_owned())
         }
+        "--schema" => Some(schema::<P>()),
         "--completions" => Some(completions(&mut command, Shell::from_str(&value?, true).ok()?)),
         _ => None,
     }
+}
+
+fn schema<P: Program>() -> String {
+    format!("{:#}\n", P::schema().as_value())
 }
 
 fn completions(command: &mut clap::Command, shell: Shell) -> String {

@@ -9,6 +9,11 @@ pub trait Source<T> {
     /// Empty at the end.
     fn next_batch(&mut self, limit: usize) -> Result<Vec<T>, Failure>;
 
+    /// How many pieces of work there will be, where that can be known beforehand.
+    fn total(&self) -> Option<u64> {
+        None
+    }
+
     /// What was lost or skipped since the last call.
     fn lost(&mut self) -> Vec<Diagnostic> {
         Vec::new()

@@ -18,6 +18,11 @@ use crate::simulation::{NoiseLevel, Perception};
 /// Seconds of robot time that a trial may take.
 pub const TIME_LIMIT_S: RangeInclusive<f64> = 0.0..=1e6;
 
+/// Seconds after which the simulated robot does what it is told, and so many more at most.
+pub const DEAD_TIME_S: RangeInclusive<f64> = 0.0..=1.5;
+/// See there.
+pub const JITTER_S: RangeInclusive<f64> = 0.0..=0.5;
+
 /// They bear the names of the command line, with `_` for `-`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -30,6 +35,11 @@ pub struct TrialOptions {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map: Option<String>,
     pub noise: NoiseLevel,
+    /// Seconds, where they are not those of the noise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dead_time: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub jitter: Option<f64>,
     pub perception: Perception,
     pub depth_noise: f64,
     pub depth_loss: f64,
@@ -111,6 +121,8 @@ impl TrialOptions {
             ("depth_loss", self.depth_loss, DEPTH_LOSS),
             ("light", self.light, LIGHT),
             ("time_limit", self.time_limit, TIME_LIMIT_S),
+            ("dead_time", self.dead_time.unwrap_or(0.0), DEAD_TIME_S),
+            ("jitter", self.jitter.unwrap_or(0.0), JITTER_S),
         ];
         for (name, value, range) in numbers {
             in_range(value, &range).map_err(|why| OptionsError::Value(name, why))?;
@@ -129,10 +141,12 @@ impl TrialOptions {
 }
 
 /// Every name that may stand in a log.
-const NAMES: [&str; 15] = [
+const NAMES: [&str; 17] = [
     "world",
     "map",
     "noise",
+    "dead_time",
+    "jitter",
     "perception",
     "depth_noise",
     "depth_loss",
@@ -217,6 +231,8 @@ mod tests {
             world: None,
             map: None,
             noise: NoiseLevel::Default,
+            dead_time: None,
+            jitter: None,
             perception: Perception::Truth,
             depth_noise: 1.0,
             depth_loss: 0.02,
@@ -239,6 +255,7 @@ mod tests {
     #[test]
     fn the_list_is_that_of_the_fields() {
         let all = TrialOptions { world: Some(String::new()), map: Some(String::new()), ..usual() };
+        let all = TrialOptions { dead_time: Some(0.1), jitter: Some(0.0), ..all };
         assert_eq!(named(&all).keys().collect::<Vec<_>>(), NAMES.iter().collect::<Vec<_>>());
     }
 

@@ -79,6 +79,9 @@ struct SeenLine {
 /// Gold and what was seen, frame by frame; fused records are held against all that their frames show.
 ///
 /// A frame without a record counts as one in which nothing was seen.
+///
+/// # Errors
+/// When a line is no gold frame or no record, with its number.
 pub fn gold_frames(gold: &[String], records: &[String], subset: Option<&str>) -> Result<Vec<GoldFrame>, String> {
     let mut known = BTreeMap::new();
     for (number, line) in (1..).zip(gold) {

@@ -38,6 +38,9 @@ struct OwnGrounding {
 }
 
 /// Reads gold descriptions, one JSON object a line; `file` is named in errors.
+///
+/// # Errors
+/// When a line is no gold description or an id stands twice, with the line.
 pub fn read_gold(text: &str, file: &str) -> Result<Vec<Gold>, GoldError> {
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     lines

@@ -41,6 +41,9 @@ pub struct TreeError {
 }
 
 /// Reads a tree.
+///
+/// # Errors
+/// When brackets do not match, a tag is none, or labels are not of the form, with the column.
 pub fn parse_tree(tree: &str) -> Result<LabelledTree, TreeError> {
     let mut result = LabelledTree::default();
     let mut open: Vec<LabelledChunk> = Vec::new();

@@ -58,13 +58,13 @@ fn add_group(sum: &mut Group, part: &Group) {
 mod tests {
     use super::*;
     use crate::evaluation::{read_gold, run_corpus, score};
-    use crate::simulation::{Home, Settings};
+    use crate::simulation::{Home, TrialSettings};
 
     #[test]
     fn parts_add_up_to_the_whole() {
         let gold = read_gold(include_str!("../../corpus/templates.jsonl"), "templates.jsonl").expect("a sound corpus");
         let gold = &gold[..6];
-        let lines = run_corpus(gold, &Home::load(None, None).expect("the apartment"), &Settings::default());
+        let lines = run_corpus(gold, &Home::load(None, None).expect("the apartment"), &TrialSettings::default());
         let whole = score(gold, &lines).expect("scored");
         let part = |lines: &[String]| score(&only_with_records(gold.to_vec(), lines), lines).expect("scored");
         let merged = merge_scores(&[part(&lines[4..]), part(&lines[..4])]);

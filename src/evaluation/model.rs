@@ -11,6 +11,9 @@ use crate::grounding::paper::Label;
 use crate::record::Tag;
 
 /// A training record: id, text, chunks, and a grounding for each chunk in pre-order.
+///
+/// # Errors
+/// When the tree cannot be read.
 pub fn training_record(id: &str, tree: &str) -> Result<Value, TreeError> {
     let tree = parse_tree(tree)?;
     let chunks: Vec<_> = tree.chunks.iter().map(LabelledChunk::to_chunk).collect();

@@ -7,14 +7,14 @@ use crate::grounding::{Grounder, Method};
 use crate::language::chunk_text;
 use crate::planning::Planner;
 use crate::record::{Chunk, Grounding, Plan, Record, Token};
-use crate::simulation::{Home, Settings, run, stream_of};
+use crate::simulation::{Home, TrialSettings, run, stream_of};
 
 /// The stages, in one home.
 pub struct Pipeline<'h> {
     /// Where the robot drives.
     pub home: &'h Home,
     /// How it drives.
-    pub settings: Settings,
+    pub settings: TrialSettings,
     grounder: Grounder,
     planner: Planner,
 }
@@ -34,7 +34,7 @@ pub struct Understood {
 
 impl<'h> Pipeline<'h> {
     /// The stages with their default methods.
-    pub fn new(home: &'h Home, settings: Settings) -> Self {
+    pub fn new(home: &'h Home, settings: TrialSettings) -> Self {
         let grounder = Grounder::new(Method::Composed, true);
         Self { home, settings, grounder, planner: Planner::new(home.map.clone()) }
     }

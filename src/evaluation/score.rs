@@ -11,7 +11,7 @@ use super::brackets::brackets_of;
 use super::grounding::judge;
 use super::{Gold, Pipeline, Rate};
 use crate::record::{Chunk, Grounding, Outcome, Record, Rounded, Tag, Trial};
-use crate::simulation::{Home, Settings};
+use crate::simulation::{Home, TrialSettings};
 
 /// The scores of one group of descriptions. A stage that no record has reached is not counted.
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
@@ -74,6 +74,9 @@ struct Answer {
 }
 
 /// Scores JSON lines of records against gold; `Err` names a record that is none.
+///
+/// # Errors
+/// When a line is no record.
 pub fn score(gold: &[Gold], lines: &[String]) -> Result<Scores, String> {
     let mut scores = Scores::default();
     let mut answers: HashMap<String, Answer> = HashMap::new();
@@ -185,7 +188,7 @@ impl Group {
 }
 
 /// Runs a corpus end to end in `home`, from the text, and returns the records as JSON lines in the corpus's order.
-pub fn run_corpus(gold: &[Gold], home: &Home, settings: &Settings) -> Vec<String> {
+pub fn run_corpus(gold: &[Gold], home: &Home, settings: &TrialSettings) -> Vec<String> {
     gold.par_iter().map_init(|| Pipeline::new(home, *settings), |pipeline, gold| pipeline.record(gold)).collect()
 }
 
@@ -218,7 +221,7 @@ mod tests {
         // A third of them: each is a drive.
         let gold: Vec<Gold> = own().into_iter().step_by(3).collect();
         let home = Home::load(None, None).expect("the apartment");
-        let scores = score(&gold, &run_corpus(&gold, &home, &Settings::default())).expect("scored");
+        let scores = score(&gold, &run_corpus(&gold, &home, &TrialSettings::default())).expect("scored");
         assert!(scores.all.found.hit + 1 >= gold.len(), "found {} of {}", scores.all.found.hit, gold.len());
         assert_eq!(scores.all.collisions, 0);
         assert!(scores.all.command.share() > 0.9 && scores.all.right_first.share() > 0.85);

@@ -1,6 +1,11 @@
 //! Scores as text tables.
 
 use super::{Group, Rate, Scores};
+use crate::record::csv_line;
+
+/// What has to be known to read the rows above it.
+const SPL_NOTE: &str =
+    "  (SPL, success weighted by path length: 1 for the shortest way to the object, 0 where it is not found)";
 
 /// The tables for people: all, by form, by furniture named, by tag.
 pub fn text_tables(title: &str, scores: &Scores) -> String {
@@ -22,6 +27,7 @@ pub fn text_tables(title: &str, scores: &Scores) -> String {
         let mean = |group: &Group| format!("{:.3}", group.spl_sum.0 / group.descriptions.max(1) as f64);
         lines.push(row("SPL, mean", columns.iter().map(|(_, group)| mean(group))));
         lines.push(row("collisions", columns.iter().map(|(_, group)| group.collisions.to_string())));
+        lines.push(SPL_NOTE.to_string());
     }
     let interval = |name: &str, rate: Rate| {
         let (low, high) = rate.interval();
@@ -44,6 +50,26 @@ pub fn text_tables(title: &str, scores: &Scores) -> String {
     for (what, ids) in [("missing", &scores.missing), ("doubled", &scores.doubled), ("not in gold", &scores.unknown)] {
         if !ids.is_empty() {
             lines.push(format!("  {what}: {}", ids.join(", ")));
+        }
+    }
+    lines.join("\n")
+}
+
+/// The same as rows of a table: a line a group and measure, with the count and its 95 % interval.
+pub fn csv_tables(scores: &Scores) -> String {
+    let mut groups: Vec<(&str, &str, &Group)> = vec![("all", "all", &scores.all)];
+    groups.extend(scores.by_form.iter().map(|(name, group)| ("form", name.as_str(), group)));
+    groups.extend(scores.by_names.iter().map(|(name, group)| ("furniture named", name.as_str(), group)));
+    let mut lines = vec!["by,group,measure,hit,of,share,low,high".to_string()];
+    for (by, name, group) in groups {
+        for (measure, rate) in ROWS.iter().map(|(measure, pick)| (measure, pick(group))).filter(|(_, r)| r.of > 0) {
+            let (low, high) = rate.interval();
+            let head = csv_line([by, name, measure]);
+            lines.push(format!("{head},{},{},{:.4},{low:.4},{high:.4}", rate.hit, rate.of, rate.share()));
+        }
+        if group.found.of > 0 {
+            let mean = group.spl_sum.0 / group.descriptions.max(1) as f64;
+            lines.push(format!("{},,{},{mean:.4},,", csv_line([by, name, "SPL"]), group.descriptions));
         }
     }
     lines.join("\n")

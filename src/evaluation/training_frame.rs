@@ -20,6 +20,9 @@ struct Line {
 }
 
 /// Writes colour, depth and mask of frame `number` under `seed` into `folder`; answers its line of `index.jsonl`.
+///
+/// # Errors
+/// When a file cannot be written.
 pub fn write_training_frame(folder: &Path, seed: u64, number: u64, force: bool) -> Result<String, FileError> {
     let made = frame(seed, number);
     let rgbd = &made.rgbd;

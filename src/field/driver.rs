@@ -4,13 +4,16 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::frame_stream::Tell;
-use crate::behavior::{Executive, Furniture, Options, Run, Silent, Watcher, plan_of, rounded, text_of};
+use crate::behavior::{
+    Executive, Furniture, Options, Run, Several, Silent, Watcher, note_of, object_of, plan_of, rounded, row_of,
+    shade_of, text_of,
+};
 use crate::frame::{Camera, RgbdFrame};
 use crate::geometry::{ClearanceGrid, Pose};
 use crate::map::RoomMap;
 use crate::perception::{Eyes, View};
-use crate::record::{Note, PathPoint, Plan, Record, Stage, StageError, Trial};
-use crate::recording::{About, Outputs, Recorder};
+use crate::record::{Note, PathPoint, Plan, Record, Row, Shade, Stage, StageError, Trial};
+use crate::recording::{About, Outputs, Recorder, Told};
 use crate::robot::{MobileBase, RealBase, Remote};
 
 /// A trial that is told to stop has its log written within this.
@@ -107,8 +110,10 @@ impl RealDriver {
         self.robot.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<(), StageError> {
-        let failed = |error: String| StageError::new(error);
+    fn drive(&self, record: &mut Record, plan: &Plan, id: &str) -> Result<Note, StageError> {
+        let failed = |error: &dyn std::fmt::Display| StageError::new(error.to_string());
+        let name = record.file_name();
+        self.outputs.prepare(&name, id).map_err(|error| failed(&error))?;
         let mut robot = self.robot();
         let Robot { base, eyes } = &mut *robot;
         base.begin_trial();
@@ -120,9 +125,14 @@ impl RealDriver {
             settings: format!("{:?}", self.options),
             record,
         };
-        let recorder = Recorder::begin(&self.outputs, id, &about).map_err(|error| failed(error.to_string()))?;
+        let recorder = Recorder::begin(&self.outputs, &name, &about).map_err(|error| failed(&error))?;
+        let (mut narrator, mut story) = (self.outputs.narrator(id, record), self.outputs.story());
+        let mut audience = Several::default();
+        narrator.iter_mut().for_each(|narrator| audience.0.push(narrator));
+        story.iter_mut().for_each(|story| audience.0.push(story));
         let mut log = Log {
             recorder,
+            audience,
             silent: Silent,
             remote: Arc::clone(&self.remote),
             tell: self.tell.as_ref(),
@@ -131,14 +141,22 @@ impl RealDriver {
         let _stops = StopInPanic(self.remote.as_ref());
         let mut run = run(&self.map, plan, self.options, base.as_mut(), eyes.as_mut(), &mut log);
         log.drain(base.time_s());
+        let recorder = log.recorder.take();
+        drop(log);
+        narrator.iter().for_each(|narrator| narrator.end(&run.trial));
         let picture = eyes.frame().map(RgbdFrame::color_png);
-        self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, id)?;
+        let mut lost = self.outputs.leave((&self.map, &[]), &mut run, picture.as_deref(), record, &name);
         record.put(&run.trial);
-        let Some(recorder) = log.recorder else { return Ok(()) };
-        let line = serde_json::to_string(record).map_err(|error| failed(error.to_string()))?;
-        recorder
-            .finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line)
-            .map_err(|error| failed(error.to_string()))
+        let line = serde_json::to_string(record).map_err(|error| failed(&error))?;
+        if let Some(story) = story {
+            let thumbnail = eyes.frame().map(RgbdFrame::thumbnail_png);
+            self.outputs.tell(Told { line: line.clone(), run: run.clone(), picture: thumbnail, story });
+        }
+        if let Some(recorder) = recorder {
+            let written = recorder.finish(run.trial.duration_s.0, picture.unwrap_or_default(), &line);
+            lost.extend(written.err().map(|error| error.to_string()));
+        }
+        Ok(note_of(&run.trial).and(lost))
     }
 }
 
@@ -158,6 +176,7 @@ fn run(
     let trial = Trial {
         outcome: report.outcome,
         why: report.why,
+        description: report.description,
         final_pose: rounded(pose),
         target_id: None,
         approached: Vec::new(),
@@ -172,7 +191,7 @@ fn run(
         actions: report.journal.actions,
         path,
     };
-    Run { trial, final_pose: pose, found_at: report.found_at }
+    Run { trial, final_pose: pose, found_at: report.found_at, sought: object_of(plan).map(str::to_string) }
 }
 
 /// A program that panics steers no more: the robot is stopped, its motors switched off and the line closed at once.
@@ -189,6 +208,7 @@ impl Drop for StopInPanic<'_> {
 /// Passes on what the executive tells, adds what happens to the robot, and hears of a stop.
 struct Log<'a> {
     recorder: Option<Recorder>,
+    audience: Several<'a>,
     silent: Silent,
     remote: Arc<dyn Remote>,
     tell: &'a (dyn Fn(&str) + Send + Sync),
@@ -219,10 +239,12 @@ impl Watcher for Log<'_> {
 
     fn frame(&mut self, time_s: f64, believed: Pose, frame: &RgbdFrame) {
         self.inner().frame(time_s, believed, frame);
+        self.audience.frame(time_s, believed, frame);
     }
 
     fn seen(&mut self, time_s: f64, view: &View) {
         self.inner().seen(time_s, view);
+        self.audience.seen(time_s, view);
     }
 
     fn grid(&mut self, time_s: f64, grid: &ClearanceGrid) {
@@ -231,10 +253,16 @@ impl Watcher for Log<'_> {
 
     fn said(&mut self, time_s: f64, text: &str) {
         self.inner().said(time_s, text);
+        self.audience.said(time_s, text);
+    }
+
+    fn told(&mut self, time_s: f64, plain: &str) {
+        self.audience.told(time_s, plain);
     }
 
     fn furniture(&mut self, time_s: f64, furniture: &[Furniture]) {
         self.inner().furniture(time_s, furniture);
+        self.audience.furniture(time_s, furniture);
     }
 
     /// Someone says so, or what the robot does can no longer be told.
@@ -250,10 +278,26 @@ impl Stage for RealDriver {
         self.busy.set(true);
         let driven = self.drive(record, &plan, &id);
         self.busy.set(false);
-        driven.map(|()| Note::Done)
+        driven
     }
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
         text_of(record)
+    }
+
+    fn shade(&self, line: &str) -> Shade {
+        shade_of(line)
+    }
+
+    fn row(&self, record: &Record) -> Option<Result<Row, StageError>> {
+        Some(row_of(record))
+    }
+
+    fn has_rows(&self) -> bool {
+        true
+    }
+
+    fn narrates(&self) -> bool {
+        true
     }
 }

@@ -68,6 +68,9 @@ impl FrameStream {
     /// Takes in what `frames` hands over, on a thread of its own, until it ends.
     ///
     /// It hands over frames, or none to ask whether more are wanted, and shall end when they are not.
+    ///
+    /// # Errors
+    /// When no thread can be started.
     pub fn start(
         carrier: Arc<dyn Remote>,
         tell: Tell,
@@ -95,6 +98,9 @@ impl FrameStream {
     }
 
     /// Reads frames from `path`: a file that may still be growing, a FIFO, or `-` for standard input.
+    ///
+    /// # Errors
+    /// When the path cannot be opened.
     pub fn open(path: &Path, carrier: Arc<dyn Remote>, tell: Tell) -> io::Result<Arc<Self>> {
         let path = path.to_path_buf();
         // A FIFO opens only when its writer comes: not before the thread is there.

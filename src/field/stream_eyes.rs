@@ -88,12 +88,18 @@ impl Watch {
 
 impl StreamEyes {
     /// Eyes that read frames from `path`: a file that may still be growing, a FIFO, or `-` for standard input.
+    ///
+    /// # Errors
+    /// When the path cannot be opened.
     pub fn open(path: &Path, map: RoomMap, carrier: Arc<dyn Remote>, tell: Tell) -> io::Result<Self> {
         let stream = FrameStream::open(path, Arc::clone(&carrier), tell)?;
         Self::new(stream, shipped_detector(map), carrier)
     }
 
     /// Eyes behind the Kinect that is plugged into this machine, on the usual tower.
+    ///
+    /// # Errors
+    /// When there is no Kinect, or this build does not know one.
     #[cfg(feature = "kinect")]
     pub fn kinect(map: RoomMap, carrier: Arc<dyn Remote>, tell: Tell) -> io::Result<Self> {
         let stream = FrameStream::start(Arc::clone(&carrier), tell, super::kinect::stream)?;

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::degree::Judge;
-use super::{Relation, Shape};
+use super::{RelativePosition, Shape};
 
 /// How far `a` lies between two others, 0 to 1: the greatest degree to which it lies in one direction of the first
 /// and in the opposite direction of the second.
@@ -15,11 +15,11 @@ use super::{Relation, Shape};
 /// assert!(force::between(&square(0.0), &square(3.0), &square(6.0)) < 0.1);
 /// ```
 pub fn between(a: &Shape, first: &Shape, second: &Shape) -> f64 {
-    betweenness(&Relation::between(a, first), &Relation::between(a, second))
+    betweenness(&RelativePosition::between(a, first), &RelativePosition::between(a, second))
 }
 
 /// How far an object lies between two others, from its relations to them.
-pub(super) fn betweenness(one: &Relation, other: &Relation) -> f64 {
+pub(super) fn betweenness(one: &RelativePosition, other: &RelativePosition) -> f64 {
     const DIRECTIONS: usize = 32;
     let (mut one, mut other) = (Judge::new(one.constant()), Judge::new(other.constant()));
     let both = |i: usize| {

@@ -9,7 +9,7 @@ use super::wording::{
     Assessment, BETWEEN, BOTH, Closeness, DIRECTLY, INSIDE, MOSTLY, NO_DIRECTION, PARTLY_SURROUNDED, PLAINLY, SLIGHTLY,
     SOMEWHAT, SURROUNDED,
 };
-use super::{DegreeOfTruth, Frame, Relation};
+use super::{Axes, DegreeOfTruth, RelativePosition};
 
 /// What can be said about where one object is of another.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Description {
     pub closeness: Closeness,
     /// How well the words fit.
     pub assessment: Assessment,
-    frame: Frame,
+    axes: Axes,
     around: Around,
 }
 
@@ -39,20 +39,20 @@ enum Around {
 }
 
 impl Description {
-    /// Describes a relation in a frame.
+    /// Describes a relation in the words of a frame of reference.
     ///
     /// ```
-    /// use spatial_fetch::force::{Description, Frame, Relation, Shape};
+    /// use spatial_fetch::force::{Axes, Description, RelativePosition, Shape};
     /// let box_at = |x: f64, y: f64| Shape::from_ring(vec![[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]]);
-    /// let relation = Relation::between(&box_at(0.3, 3.0), &box_at(0.0, 0.0));
-    /// let description = Description::of(&relation, Frame::Body { heading: -std::f64::consts::FRAC_PI_2 });
+    /// let relation = RelativePosition::between(&box_at(0.3, 3.0), &box_at(0.0, 0.0));
+    /// let description = Description::of(&relation, Axes::Body { heading: -std::f64::consts::FRAC_PI_2 });
     /// assert_eq!(
     ///     description.sentence("the table", "the couch"),
     ///     "The table is behind the couch and slightly to the left; the description is satisfactory."
     /// );
     /// ```
-    pub fn of(relation: &Relation, frame: Frame) -> Self {
-        let angles = frame.angles();
+    pub fn of(relation: &RelativePosition, axes: Axes) -> Self {
+        let angles = axes.angles();
         let degrees = relation.degrees(angles);
         let best = (0..4).fold(0, |best, i| if degrees[i].a > degrees[best].a { i } else { best });
         let primary = (degrees[best].a >= NO_DIRECTION).then_some(best);
@@ -66,7 +66,7 @@ impl Description {
             assessment: Assessment::of(relation.opinions(angles[best])),
             around: around(relation),
             degrees,
-            frame,
+            axes,
         }
     }
 
@@ -110,7 +110,7 @@ impl Description {
 
     /// The directions: "mostly behind the couch but somewhat to the left".
     fn place(&self, b: &str) -> Option<String> {
-        let words = self.frame.directions();
+        let words = self.axes.directions();
         let first = self.primary?;
         let (degree, preposition) = (self.degrees[first].a, words[first].preposition);
         let Some(second) = self.secondary else {
@@ -148,7 +148,7 @@ fn capitalized(mut text: String) -> String {
     text
 }
 
-fn around(relation: &Relation) -> Around {
+fn around(relation: &RelativePosition) -> Around {
     let (surrounded, surrounds) = (relation.surrounded(), relation.surround());
     if relation.inside() >= INSIDE {
         Around::Inside
@@ -173,7 +173,7 @@ mod tests {
     }
 
     fn said(a: &Shape, b: &Shape) -> String {
-        Description::of(&Relation::between(a, b), Frame::Map).sentence("the box", "the bed")
+        Description::of(&RelativePosition::between(a, b), Axes::Map).sentence("the box", "the bed")
     }
 
     fn said_at(degrees: f64, distance: f64) -> String {

@@ -1,6 +1,7 @@
 //! What lies between two shapes: whether they touch, and how far apart they are.
 
-use super::shape::{Shape, boxes_meet};
+use super::boxes::boxes_meet;
+use super::shape::Shape;
 use crate::geometry::{Vec2, segment_distance, segments_touch};
 
 type Edge = (Vec2, Vec2);

@@ -1,24 +1,23 @@
 //! Masks in PNG files: bright is inside.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::io::Cursor;
 use std::path::Path;
 
 use png::{ColorType, Transformations};
 
 use super::raster::Raster;
-use crate::limits::PICTURE_PIXELS;
+use crate::limits::{PICTURE_FILE_BYTES, PICTURE_PIXELS};
 
 /// Reads a mask; the message of an error names the file.
 pub(super) fn read_mask(path: &Path, cell: f64) -> Result<Raster, String> {
     let named = |message: String| format!("{}: {message}", path.display());
-    let file = File::open(path).map_err(|error| named(error.to_string()))?;
-    let (width, height, levels) = decode(BufReader::new(file)).map_err(named)?;
+    let bytes = PICTURE_FILE_BYTES.read(path).map_err(|error| named(error.to_string()))?;
+    let (width, height, levels) = decode(&bytes).map_err(named)?;
     Raster::from_levels(width, height, levels, 255, cell).map_err(|error| named(error.to_string()))
 }
 
-fn decode(file: BufReader<File>) -> Result<(usize, usize, Vec<u8>), String> {
-    let mut decoder = png::Decoder::new(file);
+fn decode(bytes: &[u8]) -> Result<(usize, usize, Vec<u8>), String> {
+    let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(Transformations::normalize_to_color8());
     let unreadable = |error: png::DecodingError| format!("not a readable PNG image: {error}");
     let header = decoder.read_header_info().map_err(unreadable)?;
@@ -47,6 +46,8 @@ fn brightness(pixel: &[u8], color: ColorType) -> u8 {
 
 #[cfg(test)]
 mod tests {
+    use std::fs::File;
+
     use super::*;
 
     fn written(color: ColorType, pixels: &[u8]) -> (tempfile::TempDir, std::path::PathBuf) {

@@ -20,10 +20,11 @@
 //! assert_eq!(histogram.values()[2], 0.0);
 //! ```
 
+mod axes;
 mod between;
+mod boxes;
 mod degree;
 mod describe;
-mod frame;
 mod gap;
 mod histogram;
 mod input;
@@ -37,20 +38,23 @@ pub mod raster;
 mod relation;
 mod rose;
 mod shape;
+mod shape_error;
 mod stage;
 mod surround;
+mod validity;
 mod wording;
 
+pub use axes::{Axes, Words};
 pub use between::between;
 pub use degree::{DegreeOfTruth, degree_of_truth};
 pub use describe::Description;
-pub use frame::{Frame, Words};
 pub use histogram::Histogram;
 pub use kernel::{Force, Infinite};
 pub use main_direction::main_direction;
-pub use name::{ForceName, FrameName};
-pub use relation::Relation;
-pub use shape::{Shape, ShapeError};
+pub use name::{AxesName, ForceName};
+pub use relation::RelativePosition;
+pub use shape::Shape;
+pub use shape_error::ShapeError;
 pub use stage::{Describer, Pictures};
 pub use surround::surround;
 pub use wording::{Assessment, Closeness};

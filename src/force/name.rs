@@ -40,7 +40,7 @@ impl fmt::Display for ForceName {
 
 /// A frame of reference by name; all but the map's take a heading from the record.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FrameName {
+pub enum AxesName {
     /// Right, above, left, below.
     #[default]
     Map,
@@ -54,7 +54,7 @@ pub enum FrameName {
     Facing,
 }
 
-impl FromStr for FrameName {
+impl FromStr for AxesName {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::degree::{Judge, degree_of_truth};
 use super::main_direction::main_direction;
 use super::polygon::{finite_histograms, hybrid, intersection_area};
-use super::raster::{Pair, Raster};
+use super::raster::{Raster, RasterPair};
 use super::surround::surround;
 use super::{DegreeOfTruth, Force, Histogram, Shape};
 use crate::geometry::Vec2;
@@ -22,14 +22,14 @@ const MOST_DIRECTIONS: usize = 1024;
 /// Constant forces see the objects whole, hybrid ones the parts nearest to each other.
 ///
 /// ```
-/// use spatial_fetch::force::{Relation, Shape};
+/// use spatial_fetch::force::{RelativePosition, Shape};
 /// let square = |x: f64| Shape::from_ring(vec![[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]]);
-/// let relation = Relation::between(&square(3.0), &square(0.0));
+/// let relation = RelativePosition::between(&square(3.0), &square(0.0));
 /// assert!(relation.degree(0.0).a > 0.99);
 /// assert_eq!(relation.distance(), 2.0);
 /// ```
 #[derive(Clone, Debug)]
-pub struct Relation {
+pub struct RelativePosition {
     constant: Histogram,
     hybrid: Histogram,
     distance: f64,
@@ -38,7 +38,7 @@ pub struct Relation {
     diameters: (f64, f64),
 }
 
-impl Relation {
+impl RelativePosition {
     /// The relation of `a` to `b`, on as many directions as the pair needs (16 at least).
     pub fn between(a: &Shape, b: &Shape) -> Self {
         let directions = directions_for(a, b);
@@ -60,7 +60,7 @@ impl Relation {
     }
 
     /// The relation of two rasters, `a` to `b`, by their correlation.
-    pub fn between_rasters(a: &Raster, b: &Raster, pair: &Pair) -> Self {
+    pub fn between_rasters(a: &Raster, b: &Raster, pair: &RasterPair) -> Self {
         let (diameters, apart) = ((a.diameter(), b.diameter()), a.offset_from(b));
         let directions = directions_for_sizes(diameters.0 + diameters.1, apart.norm());
         let mut histograms = pair.finite_histograms(&[Force::Power(0.0), pair.hybrid()], directions);
@@ -188,7 +188,7 @@ mod tests {
 
     #[test]
     fn a_square_to_the_right_is_to_the_right() {
-        let relation = Relation::between(&square(3.0, 0.0), &square(0.0, 0.0));
+        let relation = RelativePosition::between(&square(3.0, 0.0), &square(0.0, 0.0));
         assert!(relation.degree(0.0).a > 0.9);
         assert!(relation.degree(PI).a < 0.01);
         assert!(relation.main_direction().expect("a direction") < 0.01);
@@ -201,7 +201,7 @@ mod tests {
             let theta = degrees.to_radians();
             for distance in [5.0, 50.0, 5000.0] {
                 let far = square(distance * theta.cos(), distance * theta.sin());
-                let found = Relation::between(&far, &square(0.0, 0.0)).main_direction().expect("a direction");
+                let found = RelativePosition::between(&far, &square(0.0, 0.0)).main_direction().expect("a direction");
                 assert!((found - theta).abs() < 0.02, "{degrees}° at {distance}: {}", found.to_degrees());
             }
         }
@@ -209,16 +209,16 @@ mod tests {
 
     #[test]
     fn a_ring_surrounds_what_is_in_it_and_not_the_other_way_round() {
-        let relation = Relation::between(&frame(-2.0, 3.0), &square(0.0, 0.0));
+        let relation = RelativePosition::between(&frame(-2.0, 3.0), &square(0.0, 0.0));
         assert!(relation.surround() > 0.8 && relation.surrounded() == 0.0);
-        assert!(Relation::between(&square(0.0, 0.0), &frame(-2.0, 3.0)).surrounded() > 0.8);
-        assert!(Relation::between(&square(3.0, 0.0), &square(0.0, 0.0)).surround() < 0.1);
+        assert!(RelativePosition::between(&square(0.0, 0.0), &frame(-2.0, 3.0)).surrounded() > 0.8);
+        assert!(RelativePosition::between(&square(3.0, 0.0), &square(0.0, 0.0)).surround() < 0.1);
     }
 
     #[test]
     fn a_square_within_another_is_inside_it() {
         let large = Shape::from_ring(vec![[-2.0, -2.0], [3.0, -2.0], [3.0, 3.0], [-2.0, 3.0]]);
-        let relation = Relation::between(&square(0.0, 0.0), &large);
+        let relation = RelativePosition::between(&square(0.0, 0.0), &large);
         assert!((relation.inside() - 1.0).abs() < 1e-9 && (relation.contains() - 0.04).abs() < 1e-9);
         assert_eq!(relation.distance(), 0.0);
     }

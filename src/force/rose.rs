@@ -6,6 +6,7 @@ use std::fmt::Write;
 use super::input::Extent;
 use super::raster::Raster;
 use super::{Histogram, Shape};
+use crate::escape::for_markup;
 use crate::geometry::{Vec2, vec2};
 
 /// Side of each of the two panels, in units of the picture.
@@ -26,7 +27,7 @@ pub(super) fn picture(objects: [&Extent; 2], names: [&str; 2], roses: &[(String,
     draw_roses(&mut svg, roses);
     let (x, y) = (width / 2.0, height - 0.6 * CAPTION);
     // Writing to a string cannot fail.
-    let _ = writeln!(svg, "<text x=\"{x}\" y=\"{y}\" text-anchor=\"middle\">{}</text>\n</svg>", escaped(caption));
+    let _ = writeln!(svg, "<text x=\"{x}\" y=\"{y}\" text-anchor=\"middle\">{}</text>\n</svg>", for_markup(caption));
     svg
 }
 
@@ -63,7 +64,7 @@ fn draw_objects(svg: &mut String, objects: [&Extent; 2], names: [&str; 2]) {
     }
     for (i, (name, color)) in names.into_iter().zip([A_COLOR, B_COLOR]).enumerate() {
         let x = MARGIN + i as f64 * PANEL / 2.0;
-        let _ = writeln!(svg, "<text x=\"{x}\" y=\"{}\" fill=\"{color}\">{}</text>", MARGIN - 8.0, escaped(name));
+        let _ = writeln!(svg, "<text x=\"{x}\" y=\"{}\" fill=\"{color}\">{}</text>", MARGIN - 8.0, for_markup(name));
     }
 }
 
@@ -123,7 +124,7 @@ fn draw_roses(svg: &mut String, roses: &[(String, Histogram)]) {
             "<text x=\"{}\" y=\"{}\" fill=\"{color}\">{}</text>",
             x - radius + 60.0 * i as f64,
             MARGIN - 8.0,
-            escaped(name)
+            for_markup(name)
         );
     }
 }
@@ -144,10 +145,6 @@ fn draw_rose(svg: &mut String, histogram: &Histogram, (x, y): (f64, f64), radius
         svg,
         "<polygon points=\"{points}\" fill=\"{color}\" fill-opacity=\"0.3\" stroke=\"{color}\" stroke-linejoin=\"round\"/>"
     );
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

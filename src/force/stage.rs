@@ -6,10 +6,11 @@ use std::path::PathBuf;
 use super::between::betweenness;
 use super::input::{Extent, Object, object};
 use super::polygon::{histograms, hybrid};
-use super::raster::{Fuzzy, Pair, Raster};
+use super::raster::{Fuzzy, Raster, RasterPair};
 use super::rose::picture;
-use super::{Description, Force, ForceName, Frame, FrameName, Histogram, Infinite, Relation};
-use crate::files::write_file;
+use super::{Axes, AxesName, Description, Force, ForceName, Histogram, Infinite, RelativePosition};
+use crate::escape::for_file_name;
+use crate::files::{Claims, write_file};
 use crate::record::{DegreeOfTruth, Hof, HofForce, Note, Record, Stage, StageError};
 
 /// Where pictures go: each to `FOLDER/ID.svg`.
@@ -19,6 +20,8 @@ pub struct Pictures {
     pub folder: PathBuf,
     /// Whether files that exist may go.
     pub overwrite: bool,
+    /// Which of them belong to which record of this run.
+    pub claims: Claims,
 }
 
 /// Computes histograms of forces for records that hold two shapes, `a` and `b`, and describes where `a` is of `b`.
@@ -29,7 +32,7 @@ pub struct Describer {
     /// Directions of the histograms.
     pub directions: usize,
     /// The frame in which directions are named.
-    pub frame: FrameName,
+    pub frame: AxesName,
     /// How memberships of fuzzy rasters combine.
     pub fuzzy: Fuzzy,
     /// Where to draw both objects and the histograms, when pictures are wanted.
@@ -39,7 +42,7 @@ pub struct Describer {
 /// What two objects of one kind yield.
 struct Measured {
     histograms: Vec<Result<Histogram, Infinite>>,
-    relation: Relation,
+    relation: RelativePosition,
 }
 
 impl Describer {
@@ -48,12 +51,12 @@ impl Describer {
             (Extent::Polygons(a), Extent::Polygons(b)) => {
                 let forces = self.forces_with(|| hybrid(a, b));
                 let histograms = histograms(a, b, &forces, self.directions);
-                Ok(Measured { histograms, relation: Relation::between(a, b) })
+                Ok(Measured { histograms, relation: RelativePosition::between(a, b) })
             }
             (Extent::Cells(a), Extent::Cells(b)) => {
                 let pair = self.pair(a, b, "b")?;
                 let histograms = pair.histograms(&self.forces_with(|| pair.hybrid()), self.directions);
-                Ok(Measured { histograms, relation: Relation::between_rasters(a, b, &pair) })
+                Ok(Measured { histograms, relation: RelativePosition::between_rasters(a, b, &pair) })
             }
             _ => Err(mixed("b")),
         }
@@ -66,15 +69,15 @@ impl Describer {
         }
         let c = object(record, "c")?;
         let relation = match (&a.extent, &c.extent) {
-            (Extent::Polygons(a), Extent::Polygons(c)) => Relation::between(a, c),
-            (Extent::Cells(a), Extent::Cells(c)) => Relation::between_rasters(a, c, &self.pair(a, c, "c")?),
+            (Extent::Polygons(a), Extent::Polygons(c)) => RelativePosition::between(a, c),
+            (Extent::Cells(a), Extent::Cells(c)) => RelativePosition::between_rasters(a, c, &self.pair(a, c, "c")?),
             _ => return Err(mixed("c")),
         };
         Ok(Some((c, betweenness(&to_b.relation, &relation))))
     }
 
-    fn pair(&self, a: &Raster, other: &Raster, key: &str) -> Result<Pair, StageError> {
-        Pair::new(a, other, self.fuzzy).map_err(|error| StageError::new(format!("`a`, `{key}`: {error}")))
+    fn pair(&self, a: &Raster, other: &Raster, key: &str) -> Result<RasterPair, StageError> {
+        RasterPair::new(a, other, self.fuzzy).map_err(|error| StageError::new(format!("`a`, `{key}`: {error}")))
     }
 
     fn forces_with(&self, hybrid: impl Fn() -> Force) -> Vec<Force> {
@@ -82,17 +85,17 @@ impl Describer {
         self.forces.iter().map(force).collect()
     }
 
-    fn frame_of(&self, record: &Record) -> Result<Frame, StageError> {
-        if self.frame == FrameName::Map {
-            return Ok(Frame::Map);
+    fn axes_of(&self, record: &Record) -> Result<Axes, StageError> {
+        if self.frame == AxesName::Map {
+            return Ok(Axes::Map);
         }
         let wanted = "the frame needs it: radians, counter-clockwise from +x";
         let heading: f64 = record.require("heading", wanted)?;
         Ok(match self.frame {
-            FrameName::Map => Frame::Map,
-            FrameName::Robot | FrameName::Intrinsic => Frame::Body { heading },
-            FrameName::Viewer => Frame::Viewer { heading },
-            FrameName::Facing => Frame::facing(heading),
+            AxesName::Map => Axes::Map,
+            AxesName::Robot | AxesName::Intrinsic => Axes::Body { heading },
+            AxesName::Viewer => Axes::Viewer { heading },
+            AxesName::Facing => Axes::facing(heading),
         })
     }
 
@@ -111,10 +114,9 @@ impl Describer {
 
 impl Pictures {
     fn save(&self, id: &str, svg: &str) -> Result<(), String> {
-        let plain = |c: char| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' };
-        let name: String = id.chars().map(plain).collect();
         std::fs::create_dir_all(&self.folder).map_err(|error| format!("{}: {error}", self.folder.display()))?;
-        let path = self.folder.join(format!("{name}.svg"));
+        let path = self.folder.join(format!("{}.svg", for_file_name(id)));
+        self.claims.claim(&path, id).map_err(|error| error.to_string())?;
         write_file(&path, svg.as_bytes(), self.overwrite).map_err(|error| error.to_string())
     }
 }
@@ -131,11 +133,11 @@ fn spoken(object: &Object, otherwise: &str) -> String {
 impl Stage for Describer {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
         let (a, b) = (object(record, "a")?, object(record, "b")?);
-        let frame = self.frame_of(record)?;
+        let axes = self.axes_of(record)?;
         let measured = self.measure(&a.extent, &b.extent)?;
-        let description = Description::of(&measured.relation, frame);
+        let description = Description::of(&measured.relation, axes);
         let third = self.third(record, &a, &measured)?;
-        let names = frame.directions().map(|words| words.name.to_string());
+        let names = axes.directions().map(|words| words.name.to_string());
         let degrees = description.degrees.map(|d| DegreeOfTruth { a: rounded(d.a, 1e6), b: rounded(d.b, 1e6) });
         let hof = Hof {
             directions: self.directions,
@@ -195,12 +197,12 @@ fn twelve_digits(value: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn describer(frame: FrameName) -> Describer {
+    fn describer(frame: AxesName) -> Describer {
         let forces = vec![ForceName::Power(0.0), ForceName::Power(2.0), ForceName::Hybrid];
         Describer { forces, directions: 16, frame, fuzzy: Fuzzy::Product, pictures: None }
     }
 
-    fn run(frame: FrameName, line: &str) -> Result<Hof, StageError> {
+    fn run(frame: AxesName, line: &str) -> Result<Hof, StageError> {
         let mut record = Record::parse(line).expect("a record");
         describer(frame).run(&mut record)?;
         Ok(record.get("hof").expect("readable").expect("added"))
@@ -212,7 +214,7 @@ mod tests {
 
     #[test]
     fn forces_that_diverge_are_called_infinite() {
-        let hof = run(FrameName::Map, TOUCHING).expect("described");
+        let hof = run(AxesName::Map, TOUCHING).expect("described");
         assert_eq!(hof.forces["2"], HofForce::Infinite("infinite".to_string()));
         assert!(matches!(hof.forces["hybrid"], HofForce::Values(_)));
         assert_eq!((hof.distance_m, hof.main_deg), (0.0, Some(0.0)));
@@ -228,9 +230,9 @@ mod tests {
             let (a, b, c) = (square("lamp", a), square("bed", 0.0), square("desk", 6.0));
             format!(r#"{{"a":{a},"b":{b},"c":{c}}}"#)
         };
-        let inside = run(FrameName::Map, &line(3.0)).expect("described");
+        let inside = run(AxesName::Map, &line(3.0)).expect("described");
         assert_eq!(inside.description, "The lamp is between the bed and the desk.");
-        let outside = run(FrameName::Map, &line(9.0)).expect("described");
+        let outside = run(AxesName::Map, &line(9.0)).expect("described");
         assert!(outside.between.is_some_and(|b| b < 0.1) && outside.description.contains("right of the bed"));
     }
 
@@ -238,20 +240,20 @@ mod tests {
     fn directions_are_named_in_the_frame_asked_for() {
         let said = |frame| run(frame, TOUCHING).expect("described").description;
         let right = "The table is directly to the right of the couch, touching it; the description is satisfactory.";
-        assert_eq!(said(FrameName::Robot), right);
-        assert_eq!(said(FrameName::Facing), right.replace("right", "left"));
+        assert_eq!(said(AxesName::Robot), right);
+        assert_eq!(said(AxesName::Facing), right.replace("right", "left"));
     }
 
     #[test]
     fn a_frame_without_a_heading_says_what_it_misses() {
-        let error = run(FrameName::Viewer, &TOUCHING.replace("heading", "x")).expect_err("no heading");
+        let error = run(AxesName::Viewer, &TOUCHING.replace("heading", "x")).expect_err("no heading");
         assert!(error.message.contains("`heading`: missing; the frame needs it"), "{error}");
     }
 
     #[test]
     fn polygons_and_cells_do_not_mix() {
         let line = r##"{"a":{"grid":{"rows":["#"],"cell_m":1}},"b":{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]]]}}"##;
-        assert!(run(FrameName::Map, line).expect_err("mixed").message.contains("give both in one form"));
+        assert!(run(AxesName::Map, line).expect_err("mixed").message.contains("give both in one form"));
     }
 
     #[test]

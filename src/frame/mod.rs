@@ -11,7 +11,7 @@ mod png;
 mod projection;
 
 pub use camera::Camera;
-pub use decode::{Picture, decode_color, decode_depth};
+pub use decode::{Picture, decode_color, decode_depth, picture_size};
 pub use mount::CameraMount;
 pub use placing::{inverse, placed};
 pub use png::{grey_png, rgb_png};

@@ -71,6 +71,46 @@ impl ClearanceGrid {
         }
     }
 
+    /// Adds every cell for which `solid` holds, whole, in time that does not grow with how many there are.
+    ///
+    /// Distances along rows first, then the least over the rows in reach: the square of the distance to a square cell
+    /// is a sum over both axes (Saito & Toriwaki, "New algorithms for Euclidean distance transformation", 1994).
+    pub fn add_cells(&mut self, solid: impl Fn(usize, usize) -> bool) {
+        let (width, height) = (self.width, self.height);
+        let far = width + height;
+        let mut along = vec![far as u32; width * height];
+        for (y, row) in along.chunks_exact_mut(width).enumerate() {
+            let mut since = far;
+            for (x, steps) in row.iter_mut().enumerate() {
+                since = if solid(x, y) { 0 } else { (since + 1).min(far) };
+                *steps = since as u32;
+            }
+            for x in (0..width - 1).rev() {
+                row[x] = row[x].min(row[x + 1] + 1);
+            }
+        }
+        // From a cell's middle to the nearest side of one so many steps off.
+        let off = |steps: usize| if steps == 0 { 0.0 } else { (steps as f64 - 0.5) * self.cell_m };
+        let rows = ((self.reach_m / self.cell_m).ceil() as usize + 1).min(height);
+        for y in 0..height {
+            for x in 0..width {
+                let known = f64::from(self.clearance[y * width + x]);
+                let mut least = known * known;
+                for step in 0..rows {
+                    let down = off(step) * off(step);
+                    if down >= least {
+                        break;
+                    }
+                    for other in [y.checked_sub(step), Some(y + step).filter(|&other| other < height)] {
+                        let steps = other.map_or(far, |other| along[other * width + x] as usize);
+                        least = least.min(down + if steps < far { off(steps) * off(steps) } else { f64::INFINITY });
+                    }
+                }
+                self.clearance[y * width + x] = least.sqrt() as f32;
+            }
+        }
+    }
+
     /// `distance` is told how far the point lies from the box from `low` to `high`, that holds the obstacle, metres.
     fn lower(&mut self, low: Vec2, high: Vec2, distance: impl Fn(Vec2, f64) -> f64) {
         let reach = Vec2::repeat(self.reach_m);
@@ -142,6 +182,21 @@ mod tests {
         grid.add_about(&Polygon::rectangle(Pose::new(2.0, 2.0, 0.0), 1.0, 1.0), 0.2);
         let at = |x, y| grid.clearance(grid.cell(vec2(x, y)));
         assert!((at(2.05, 0.55) - 0.75).abs() < 1e-6 && at(2.05, 1.45) == 0.0);
+    }
+
+    #[test]
+    fn cells_all_at_once_are_as_squares_one_by_one() {
+        let mut grid = ClearanceGrid::new(vec2(-1.0, 2.0), vec2(3.0, 5.0), 0.1, 0.7);
+        let mut alike = grid.clone();
+        let solid = |x: usize, y: usize| (x * 7 + y * 13) % 41 == 0 || (x < 3 && y > 20);
+        for (x, y) in (0..40).flat_map(|x| (0..30).map(move |y| (x, y))).filter(|&(x, y)| solid(x, y)) {
+            alike.add_square(alike.centre((x as i32, y as i32)), 0.1);
+        }
+        grid.add_cells(solid);
+        for cell in (0..40).flat_map(|x| (0..30).map(move |y| (x, y))) {
+            let (one, other) = (grid.clearance(cell), alike.clearance(cell));
+            assert!((one - other).abs() < 1e-6, "{cell:?}: {one} {other}");
+        }
     }
 
     #[test]

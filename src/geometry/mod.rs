@@ -5,6 +5,7 @@
 mod clearance;
 mod polygon;
 mod pose;
+pub mod ring;
 
 pub use clearance::{Cell, ClearanceGrid};
 pub use polygon::Polygon;

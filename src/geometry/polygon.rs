@@ -1,7 +1,7 @@
 //! Simple polygons without holes: footprints and room outlines.
 
 use super::{
-    Pose, Vec2, cross, distance_to_segment, segment_distance, segments_touch, squared_distance_to_segment, vec2,
+    Pose, Vec2, cross, distance_to_segment, ring, segment_distance, segments_touch, squared_distance_to_segment, vec2,
 };
 
 /// A point so near to an edge lies on it, metres.
@@ -65,8 +65,7 @@ impl Polygon {
 
     /// The edges as pairs of corners, counter-clockwise.
     pub fn edges(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
-        let n = self.corners.len();
-        (0..n).map(move |i| (self.corners[i], self.corners[if i + 1 == n { 0 } else { i + 1 }]))
+        ring::edges(&self.corners)
     }
 
     /// Square metres.
@@ -76,17 +75,12 @@ impl Polygon {
 
     /// The centre of area.
     pub fn centroid(&self) -> Vec2 {
-        let mut sum = Vec2::zeros();
-        for (a, b) in self.edges() {
-            sum += (a + b) * cross(a, b);
-        }
-        sum / (6.0 * self.area())
+        ring::centroid(self.edges(), Vec2::zeros())
     }
 
     /// The lowest and highest x and y.
     pub fn bounds(&self) -> (Vec2, Vec2) {
-        let start = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
-        self.corners.iter().fold(start, |(low, high), c| (low.inf(c), high.sup(c)))
+        ring::bounds(self.corners.iter())
     }
 
     /// Whether `point` lies inside or on the border.
@@ -96,13 +90,7 @@ impl Polygon {
 
     /// By the parity of crossings; on the border either may come out.
     fn surrounds(&self, point: Vec2) -> bool {
-        let mut inside = false;
-        for (a, b) in self.edges() {
-            if (a.y > point.y) != (b.y > point.y) && point.x < (b.x - a.x) * (point.y - a.y) / (b.y - a.y) + a.x {
-                inside = !inside;
-            }
-        }
-        inside
+        ring::surrounds(self.edges(), point)
     }
 
     /// Whether the two share a point.
@@ -160,7 +148,7 @@ impl Polygon {
 }
 
 fn signed_area(corners: &[Vec2]) -> f64 {
-    (0..corners.len()).map(|i| cross(corners[i], corners[(i + 1) % corners.len()])).sum::<f64>() / 2.0
+    ring::area(ring::edges(corners), Vec2::zeros())
 }
 
 #[cfg(test)]

@@ -7,11 +7,12 @@ use crate::record::{Direction, Grounding, Tag, TextSpan, Why};
 
 /// Warnings, unused words and, unless they are not wanted, the reasons.
 pub fn add(grounding: &mut Grounding, reading: &Reading, text: &str, words: &[Word], brief: bool) {
-    super::confidence::score(grounding, reading);
+    let doubts = super::confidence::score(grounding, reading);
     grounding.warnings = warnings(grounding, reading, text, words);
     if brief {
         return;
     }
+    grounding.doubts = doubts;
     let left_out = left_out(reading);
     grounding.unused = left_out.iter().map(|&at| span(&reading.units[at], text, words)).collect();
     let phrases = reading.phrases.iter();

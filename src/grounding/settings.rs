@@ -61,6 +61,9 @@ pub struct SettingsError(pub String);
 
 impl Settings {
     /// The grounder these settings ask for.
+    ///
+    /// # Errors
+    /// When a model, lexicon or training file cannot be read.
     pub fn grounder(&self) -> Result<Grounder, SettingsError> {
         let method = match self.method {
             MethodName::Composed => Method::Composed,
@@ -77,6 +80,9 @@ impl Settings {
     }
 
     /// The model that `--train` asks for, as JSON.
+    ///
+    /// # Errors
+    /// When the training file cannot be read, or a line of it is no labelled tree.
     pub fn trained(&self) -> Result<Option<String>, SettingsError> {
         let Some(path) = &self.train else { return Ok(None) };
         let trees = read_trees(path)?;

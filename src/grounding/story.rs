@@ -38,6 +38,8 @@ struct Heard {
     strength: u8,
     /// The node that was open when it was named.
     node: Option<usize>,
+    /// It was told to be somewhere, not only mentioned.
+    told: bool,
 }
 
 struct Story<'r> {
@@ -93,7 +95,7 @@ impl<'r> Story<'r> {
             let phrase = &self.phrases[at];
             match phrase.kind {
                 Kind::Room => self.room(phrase),
-                Kind::Leave => self.leave(),
+                Kind::Leave => self.leave(phrase),
                 _ if picks || led => {}
                 Kind::Stop => self.stop(),
                 Kind::Go | Kind::Turn => self.step(phrase),
@@ -156,8 +158,15 @@ impl<'r> Story<'r> {
         self.rooms.push((name, passage));
     }
 
-    fn leave(&mut self) {
+    /// A room that is left, or from which a thing is brought.
+    fn leave(&mut self, phrase: &Phrase) {
         self.open = None;
+        if self.act.delivers()
+            && self.says(phrase, &["from"])
+            && let Some(name) = self.room_name(phrase)
+        {
+            self.rooms.push((name, false));
+        }
     }
 
     // --- steps and places
@@ -307,7 +316,11 @@ impl<'r> Story<'r> {
             Some(node) if !reached => {
                 let known = &mut self.grounding.nodes[node].pairs;
                 // "By the purse uh by the black purse": said twice in one breath, meant once.
-                let breath = at > 0 && self.phrases[at - 1].past == self.phrases[at].first;
+                let before = at.checked_sub(1).map(|before| &self.phrases[before]);
+                let breath = before.is_some_and(|before| {
+                    before.past == self.phrases[at].first
+                        && matches!(before.kind, Kind::Side | Kind::Part | Kind::Landmark | Kind::ObjectMark)
+                });
                 let again = breath && pairs.len() == 1 && known.last() == pairs.first();
                 known.extend(pairs.into_iter().filter(|_| !again));
             }
@@ -456,7 +469,9 @@ impl<'r> Story<'r> {
         if !phrase.is_reached() && !turned_at {
             return false;
         }
-        let own = phrase.noun().map(|noun| self.name(noun));
+        let either = phrase.nouns.len() > 1 && self.says(phrase, &["or"]);
+        let own = if either { phrase.nouns.last() } else { phrase.noun() };
+        let own = own.map(|noun| self.name(noun));
         let rest = &self.phrases[at + 1..];
         let other = |next: &&Phrase| {
             next.kind == Kind::Target
@@ -554,6 +569,10 @@ impl<'r> Story<'r> {
             }
             let one_of_others = noun.article == Article::Indefinite && matches!(phrase.act, Act::State | Act::There);
             self.hear(noun, if one_of_others { 1 } else { strength });
+            let alone = phrase.act == Act::State && noun.past == phrase.past && phrase.first == noun.first;
+            if let Some(heard) = self.heard.last_mut() {
+                heard.told = !alone;
+            }
         }
         if phrase.noun().is_some_and(|noun| !noun.generic) {
             self.last = phrase.noun().map(|noun| self.name(noun));
@@ -564,7 +583,10 @@ impl<'r> Story<'r> {
             self.open = None;
         }
         if phrase.act == Act::State || phrase.act == Act::There {
-            self.delivering = false;
+            // "Bring it to Dad, he's on the balcony": that is where it goes.
+            let told_of = matches!(self.reading.units[phrase.first].lower.as_ref(), "he" | "she" | "they");
+            let person = self.destination.recipient.as_ref().is_some_and(|name| name != "speaker");
+            self.delivering = told_of && person && !names;
             if names {
                 self.open = self.open.filter(|_| self.target_goes_on(phrase));
             }
@@ -590,7 +612,7 @@ impl<'r> Story<'r> {
             attributes: attributes_of(noun, units),
             score: known.into(),
         };
-        self.heard.push(Heard { slot, strength, node: self.open });
+        self.heard.push(Heard { slot, strength, node: self.open, told: true });
     }
 
     fn person(&self, unit: usize) -> String {
@@ -629,9 +651,19 @@ impl<'r> Story<'r> {
                     Some(name) => name,
                     None => continue,
                 },
-                _ if noun.generic => continue,
+                _ if noun.generic || noun.class == Some(Class::Opening) => continue,
                 _ => name_of(noun, &self.reading.units, false),
             };
+            // "A table, well, not a table, a nightstand": it is taken back.
+            let nodes = &mut self.grounding.nodes;
+            if let Some(at) = nodes.iter().rposition(|node| node.target.as_deref() == Some(name.as_str())) {
+                nodes[at].target = None;
+                if nodes[at].pairs.is_empty() {
+                    nodes.remove(at);
+                }
+                self.open = None;
+                continue;
+            }
             if !self.grounding.not.iter().any(|known| known.name == name) {
                 self.grounding.not.push(RuledOut { name });
             }
@@ -678,7 +710,7 @@ impl<'r> Story<'r> {
                 || !requested && most == 3 && self.are_told_together(&other.slot, &chosen.slot);
             if together && !listed {
                 self.grounding.also.push(other.slot.clone());
-            } else if !requested && most > 1 {
+            } else if !requested && most > 1 && other.told {
                 self.add_company(other);
             }
         }

@@ -1,20 +1,10 @@
 //! What phrases mean beside one another: what is taken back or ruled out, and places that go on from a move.
 
-use super::phrases::{From, Kind, Phrase};
+use super::phrases::{Act, From, Kind, Phrase};
 use super::units::Unit;
 use super::word_class::{Role, Roles};
 
-/// Words that may stand between "not" and what it rules out.
-const AFTER_NOT: Roles = Roles::of(Role::Adverb)
-    .with(Roles::of(Role::Determiner))
-    .with(Roles::of(Role::Number))
-    .with(Roles::of(Role::Generic))
-    .with(Roles::of(Role::Copula))
-    .with(Roles::of(Role::Modal))
-    .with(Roles::of(Role::Pronoun))
-    .with(Roles::of(Role::Lying))
-    .with(Roles::of(Role::Has));
-/// Most of them.
+/// Most words between "not" and what it rules out.
 const MOST_AFTER_NOT: usize = 4;
 
 /// "Not the table by the door", "don't go to the bedroom": what is ruled out stays, and no longer counts.
@@ -24,14 +14,38 @@ pub(super) fn rule_out(phrases: &mut [Phrase], units: &[Unit]) {
         let first = phrases[at].first;
         let after_not = at > 0 && phrases[at - 1].kind == Kind::Not && {
             let gap = phrases[at - 1].past..first;
-            gap.len() <= MOST_AFTER_NOT && gap.clone().all(|i| units[i].roles.meet(AFTER_NOT) && !units[i].stop)
+            gap.len() <= MOST_AFTER_NOT
+                && gap.clone().all(|i| {
+                    let unit = &units[i];
+                    unit.noun.is_none() && !unit.stop && !unit.has(Role::Conjunction) && !unit.has(Role::Side)
+                })
         };
+        if after_not && begins_sentence(&phrases[at]) {
+            // "In the garage but it's not there the drill is …": the place before is what is ruled out.
+            let before = phrases[..at - 1].iter().rposition(|phrase| matches!(phrase.kind, Kind::Target | Kind::Room));
+            if let Some(before) = before {
+                phrases[before].kind = Kind::RuledOut;
+            }
+            ruled_to = None;
+            continue;
+        }
+        let taken_back = at > 0 && phrases[at - 1].kind == Kind::Not && phrases[at - 1].held;
         let phrase = &mut phrases[at];
+        // "Apart from the beer": said with what it rules out.
+        if phrase.kind == Kind::Not && !phrase.nouns.is_empty() {
+            let generic = phrase.noun().is_some_and(|noun| noun.generic);
+            phrase.kind = Kind::RuledOut;
+            ruled_to = generic.then_some(phrase.past);
+            continue;
+        }
         let begins = units[first].pause || units[first].has(Role::Motion) || units[first].has(Role::Turn);
         let attaches = matches!(phrase.kind, Kind::Side | Kind::Part | Kind::Landmark | Kind::ObjectMark | Kind::Room);
         let attached = ruled_to == Some(first) && attaches && !begins;
         ruled_to = None;
-        if matches!(phrase.kind, Kind::Stop | Kind::Aside | Kind::Correction | Kind::Not) || !after_not && !attached {
+        if matches!(phrase.kind, Kind::Stop | Kind::Aside | Kind::Correction | Kind::Not)
+            || !after_not && !attached
+            || phrase.kind == Kind::Object && phrase.nouns.is_empty() && !phrase.act.is_request()
+        {
             continue;
         }
         // "Not the cup from the kitchen": what is asked for may still come from there.
@@ -43,9 +57,17 @@ pub(super) fn rule_out(phrases: &mut [Phrase], units: &[Unit]) {
         {
             phrase.nouns.clear();
         }
+        if taken_back {
+            phrase.nouns.clear();
+        }
         phrase.kind = Kind::RuledOut;
         phrase.inner = None;
     }
+}
+
+/// "The drill is": a statement of its own, that no "not" before it reaches.
+fn begins_sentence(phrase: &Phrase) -> bool {
+    phrase.kind == Kind::Object && phrase.act == Act::State && phrase.noun().is_some_and(|noun| noun.past < phrase.past)
 }
 
 /// "Go forward and then to the right": a side joined to a move is a move as well.
@@ -113,6 +135,10 @@ pub(super) fn take_back_corrected(phrases: &mut Vec<Phrase>, units: &[Unit]) {
         phrases[at - 1].kind = Kind::Corrected;
         phrases[at - 1].past = phrases[last].past;
         phrases[at - 1].inner = None;
+    }
+    // "No, not a wallet": what a correction takes back is not ruled out for good.
+    for at in 1..phrases.len() {
+        phrases[at].held |= phrases[at].kind == Kind::Not && phrases[at - 1].kind == Kind::Correction;
     }
     phrases.retain(|phrase| phrase.kind != Kind::Correction);
 }

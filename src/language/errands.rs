@@ -113,6 +113,7 @@ impl SoFar {
                 || units[phrase.first].pause
                 || before.number.is_some()
                 || before.lower == "finally"
+                || before.lower == "and" && self.act == Act::Put && self.placed
         } || phrases[at - 1].kind == Kind::Aside;
         let done = self.requested && self.asked.is_some() || self.went && !self.steps && self.asked.is_none();
         let rest = &phrases[at + 1..];

@@ -146,6 +146,7 @@ pub enum Part {
     OnIt,
     Unknown,
     Name,
+    Stumble,
     Noun,
     Fixed,
     End,
@@ -154,7 +155,7 @@ pub enum Part {
     To,
 }
 
-const PARTS: [(&str, Part); 26] = [
+const PARTS: [(&str, Part); 27] = [
     ("thing", Part::Thing),
     ("things", Part::Things),
     ("objects", Part::Objects),
@@ -175,6 +176,7 @@ const PARTS: [(&str, Part); 26] = [
     ("onit", Part::OnIt),
     ("unknown", Part::Unknown),
     ("name", Part::Name),
+    ("stumble", Part::Stumble),
     ("noun", Part::Noun),
     ("fixed", Part::Fixed),
     ("end", Part::End),

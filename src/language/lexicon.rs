@@ -76,6 +76,9 @@ impl Lexicon {
 
     /// Adds nouns: lines of `name TAB class [TAB other spellings [TAB other names]]`; `#` begins a comment. A name that
     /// is known is refused.
+    ///
+    /// # Errors
+    /// When a line is not of this form or its name is known, with the line.
     pub fn add_nouns(&mut self, text: &str, file: &str) -> Result<(), LexiconError> {
         let known = self.nouns.len();
         for (line, fields) in lines(text) {
@@ -86,6 +89,9 @@ impl Lexicon {
 
     /// Adds a user's words, one a line: nouns as in [`Lexicon::add_nouns`], `word TAB role` with a role of
     /// `corpus/grammar/README.md`, or `phrase TAB relation TAB reading`. What is known from before gets the new meaning.
+    ///
+    /// # Errors
+    /// When a line is of none of these forms, with the line.
     pub fn extend(&mut self, text: &str, file: &str) -> Result<(), LexiconError> {
         let known = self.nouns.len();
         for (line, fields) in lines(text) {
@@ -112,7 +118,7 @@ impl Lexicon {
         let class = if *name == "wall" { Class::Wall } else { class };
         self.name_noun(name, class, None, split(fields.get(2)).chain([name.replace('_', " ")]), known, replace)?;
         for other in split(fields.get(3)) {
-            let own = other.replace(' ', "_");
+            let own = other.replace([' ', '-'], "_");
             self.name_noun(&own, class, Some((*name).to_string()), [other].into_iter(), known, replace)?;
         }
         Ok(())
@@ -143,6 +149,9 @@ impl Lexicon {
     }
 
     /// Adds other words: lines of `word TAB part of speech TAB roles`, roles separated by commas.
+    ///
+    /// # Errors
+    /// When a line is not of this form, with the line.
     pub fn add_words(&mut self, text: &str, file: &str) -> Result<(), LexiconError> {
         for (line, fields) in lines(text) {
             let [word, pos, roles] = fields[..] else {
@@ -158,6 +167,9 @@ impl Lexicon {
     }
 
     /// Adds spellings: lines of `written TAB meant`; only a word that means nothing as written is read otherwise.
+    ///
+    /// # Errors
+    /// When a line is not of this form, with the line.
     pub fn add_spellings(&mut self, text: &str, file: &str) -> Result<(), LexiconError> {
         for (line, fields) in lines(text) {
             let [written, meant] = fields[..] else {
@@ -294,6 +306,9 @@ fn split(field: Option<&&str>) -> impl Iterator<Item = String> {
 }
 
 /// The embedded lexicon with the words of a file added; a word of the file goes before the embedded one.
+///
+/// # Errors
+/// When the file cannot be read, or a line of it adds nothing.
 pub fn lexicon_with(path: &Path) -> Result<Lexicon, LexiconError> {
     let file = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|error| wrong(&file, 0, error.to_string()))?;

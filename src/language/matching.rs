@@ -194,10 +194,12 @@ impl<'u, 't> Text<'u, 't> {
                 caught.side = noun.side.or(caught.side);
                 Some(noun.past)
             }
-            Part::Bare => self
-                .noun(at)
-                .filter(|noun| noun.article == Article::None && matches!(noun.class, Some(Class::Object)))
-                .map(|noun| noun.past),
+            Part::Bare => {
+                let bare = |noun: &&NounPhrase| noun.article == Article::None && noun.class == Some(Class::Object);
+                let noun = self.noun(at).filter(bare)?;
+                (caught.noun, caught.list_past) = (Some(at), noun.past);
+                Some(noun.past)
+            }
             Part::Person => self.person(at, caught),
             Part::Relation => {
                 let (relation, past) = self.relation(at)?;
@@ -227,6 +229,8 @@ impl<'u, 't> Text<'u, 't> {
                 caught.person = Some(at);
                 at + 1
             }),
+            // A word broken off.
+            Part::Stumble => (unit.is_unknown() && unit.lower.len() < 5).then_some(at + 1),
             Part::Noun => unit.noun.map(|_| at + 1),
             Part::Fixed => unit.class().filter(|class| *class != Class::Object).map(|_| at + 1),
             Part::Place => self.place_follows(at).then_some(at),
@@ -328,11 +332,11 @@ impl<'u, 't> Text<'u, 't> {
         // "By the bed and the mug on the desk": the second begins a clause of its own.
         let own_place = part == Part::List
             && !between
-            && !comma
             && other.class == Some(Class::Object)
             && other.article == Article::Definite
             && self.units.get(other.past).is_some_and(|unit| !unit.pause && unit.has(Role::Preposition))
             && self.relation(other.past).is_some_and(|(_, past)| !self.is(past, &["it", "them"]));
+        let alike = alike || part == Part::List && other.article == Article::Indefinite && other.is_furniture();
         !clause && alike && !own_place && !(part == Part::List && self.units[other.first].has(Role::Act))
     }
 

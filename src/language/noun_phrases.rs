@@ -269,7 +269,7 @@ impl<'u> Reader<'u> {
     fn head(mut self, start: usize) -> Option<NounPhrase> {
         let at = self.at;
         let unit = self.unit(at).filter(|unit| at == start || !unit.pause);
-        let verb = |unit: &Unit| at == start && unit.roles.meet(VERBS);
+        let verb = |unit: &Unit| at == start && (unit.roles.meet(VERBS) || unit.has(Role::Filler));
         let Some(unit) = unit.filter(|unit| unit.noun.is_some() && !verb(unit)) else {
             return self.unnamed(start);
         };
@@ -314,7 +314,7 @@ impl<'u> Reader<'u> {
                 break;
             }
             let (Some(noun), Some(class)) = (next.noun, self.phrase.class) else { break };
-            if next.roles.meet(VERBS) || next.has(Role::Lying) || next.has(Role::Near) {
+            if next.roles.meet(VERBS) || next.has(Role::Lying) || next.has(Role::Near) || next.has(Role::Filler) {
                 break;
             }
             let head = self.phrase.head;
@@ -322,7 +322,7 @@ impl<'u> Reader<'u> {
                 // "The music room".
                 (Class::Object, Class::Room) => noun.name == "room" && !bare,
                 (Class::Room, Class::Room) | (_, Class::Room | Class::Person) => false,
-                (Class::Room, _) => true,
+                (Class::Room, _) => self.phrase.side.is_none() && self.units[head].lower != "room",
                 (Class::Object, other) if other.is_furniture() => !self.phrase.plural && !bare,
                 (Class::Object, Class::Object) => !bare && !self.phrase.plural,
                 (first, other) if first.is_furniture() => {
@@ -335,7 +335,7 @@ impl<'u> Reader<'u> {
             }
             match class {
                 // "The hall table" is a kind of table, wherever it stands.
-                Class::Room if !self.units[head].lower.contains("hall") => {
+                Class::Room if self.units[head].lower != "hall" => {
                     self.phrase.room = Some(head);
                     self.phrase.name = head + 1;
                 }
@@ -355,7 +355,7 @@ impl<'u> Reader<'u> {
     /// "The paint roller", "the paper towel holder": a word the lexicon lacks may end a name that began with a thing.
     fn goes_on_unknown(&self, next: &Unit, bare: bool) -> bool {
         let thing = matches!(self.phrase.class, Some(Class::Object | Class::Plant | Class::Appliance | Class::Screen));
-        let verb = ["s", "ed", "ing", "en"].iter().any(|ending| next.lower.ends_with(ending));
+        let verb = ["ed", "ing", "en"].iter().any(|ending| next.lower.ends_with(ending));
         let ends = self.unit(self.phrase.head + 2).is_none_or(|after| {
             after.pause
                 || after.stop
@@ -366,8 +366,10 @@ impl<'u> Reader<'u> {
                 || after.has(Role::Has)
                 || after.has(Role::Relative)
         });
-        let names = !next.foreign || next.lower.ends_with("er") || next.lower.ends_with("or");
-        next.is_unknown() && names && thing && !bare && !self.phrase.plural && !verb && ends
+        let names = !next.lower.ends_with("ly") && next.lower != "anyhow";
+        // "The garlic press": a verb by itself, and a noun here.
+        let tool = next.noun.is_none() && next.has(Role::Act) && self.phrase.article != Article::None;
+        (next.is_unknown() || tool) && names && thing && !bare && !self.phrase.plural && !verb && ends
     }
 
     /// "A box of crackers", "a slice of apple".
@@ -429,7 +431,8 @@ impl<'u> Reader<'u> {
         let head = at.checked_sub(1).filter(|&head| head >= start && self.units[head].is_unknown())?;
         // A word of English that names no thing: "earlier", "itself"; with an article it may still be one.
         let told = self.phrase.article != Article::None && !self.is(start, &["that", "this"]);
-        if self.units[head].foreign && !told {
+        let broken = self.units[head].lower.chars().count() < 3;
+        if self.units[head].foreign && !told || broken {
             return None;
         }
         (self.phrase.head, self.phrase.past) = (head, head + 1);
@@ -474,7 +477,7 @@ fn part(word: &str) -> Option<Direction> {
 pub fn name_of(phrase: &NounPhrase, units: &[Unit], counted: bool) -> String {
     let mut words: Vec<Cow<str>> = Vec::new();
     if let Some(contents) = phrase.contents {
-        words.push(one_name(&units[contents], false));
+        words.push(Cow::Owned(singular(one_name(&units[contents], false).as_ref())));
     }
     for at in phrase.name..=phrase.head {
         words.push(if at < phrase.head {

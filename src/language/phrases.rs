@@ -199,10 +199,33 @@ pub fn find<'t>(units: Vec<Unit<'t>>, lexicon: &Lexicon) -> Reading<'t> {
     }
     add_stops(&mut phrases, &units, from, units.len());
     settle_subjects(&mut phrases, &units);
+    settle_superlatives(&mut phrases, &units);
     take_back_corrected(&mut phrases, &units);
     continue_moves(&mut phrases, &units);
     rule_out(&mut phrases, &units);
     Reading { units, phrases, cost: path.cost }
+}
+
+/// "The farthest cabinet from the door", "the closest chair to the bed": the most of what the noun says.
+fn settle_superlatives(phrases: &mut [Phrase], units: &[Unit]) {
+    for at in 1..phrases.len() {
+        let (before, rest) = phrases.split_at_mut(at);
+        let (named, place) = (&before[at - 1], &mut rest[0]);
+        if named.past != place.first || !matches!(place.kind, Kind::Target | Kind::Part | Kind::ObjectMark) {
+            continue;
+        }
+        let says =
+            |words: &[&str]| units[named.first..named.past].iter().any(|unit| words.contains(&unit.lower.as_ref()));
+        let far = place.relation == Some(Relation::From) && says(&["farthest", "furthest"]);
+        let near = place.relation == Some(Relation::To) && says(&["closest", "nearest"]);
+        if far || near {
+            let direction = if far { Direction::Far } else { Direction::Side };
+            place.kind = Kind::Landmark;
+            place.relation = Some(Relation::Landmark(direction));
+            place.directions = [Some(direction), None];
+            before[at - 1].nouns.iter_mut().for_each(|noun| noun.part = None);
+        }
+    }
 }
 
 fn add_stops(phrases: &mut Vec<Phrase>, units: &[Unit], from: usize, past: usize) {
@@ -425,8 +448,14 @@ fn related(phrase: &Phrase) -> Kind {
 
 /// Furniture that is asked for is a target; all else is an object. What a statement is about, its place decides.
 fn object(phrase: &Phrase) -> Kind {
-    let fixed =
-        phrase.noun().is_some_and(|noun| noun.is_furniture() && !(can_be_carried(noun) && phrase.act.is_request()));
+    let carried = |noun: &NounPhrase| {
+        let large = matches!(
+            noun.class,
+            Some(Class::TableLike | Class::Seat | Class::Couch | Class::Bed | Class::Opening | Class::Room)
+        );
+        phrase.act.delivers() && !large || can_be_carried(noun) && phrase.act.is_request()
+    };
+    let fixed = phrase.noun().is_some_and(|noun| noun.is_furniture() && !carried(noun));
     if fixed && phrase.act != Act::State { Kind::Target } else { Kind::Object }
 }
 

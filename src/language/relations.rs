@@ -69,6 +69,9 @@ impl Relations {
     }
 
     /// Adds a user's relation; it goes before the shipped ones.
+    ///
+    /// # Errors
+    /// When the reading is none.
     pub fn add(&mut self, words: &str, reading: &str) -> Result<(), String> {
         self.push(words, reading)?;
         if let Some(own) = self.patterns.pop() {

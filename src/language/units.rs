@@ -196,6 +196,17 @@ fn longest<'l>(words: &[Word<'l>], at: usize, lexicon: &'l Lexicon) -> Unit<'l> 
 /// A word that the lexicon has under another spelling: with a space for a hyphen, as listed, or one slip away.
 fn otherwise<'l>(lower: &str, lexicon: &'l Lexicon) -> Option<(Cow<'l, str>, Known<'l>, bool)> {
     if lower.contains('-') || lower.contains('_') {
+        // "Tooth-brush", "arm-chair": written as one word.
+        let joined = lower.replace(['-', '_'], "");
+        let whole = lexicon.any_number(&joined).map(|(noun, plural)| NounUnit {
+            name: &noun.name,
+            class: noun.class,
+            plural,
+            inferred: false,
+        });
+        if let Some(noun) = whole.or_else(|| lexicon.inferred(&joined)) {
+            return Some((Cow::Owned(joined), Known { noun: Some(noun), ..Known::default() }, false));
+        }
         let spaced = lower.replace(['-', '_'], " ");
         let found = lexicon.any_number(&spaced).map(|(noun, plural)| NounUnit {
             name: &noun.name,
@@ -296,6 +307,9 @@ fn settle_its(units: &mut Vec<Unit>, i: usize) {
 fn settle_homophone(units: &mut [Unit], i: usize) {
     let Some(next) = units.get(i + 1).map(|next| next.roles) else { return };
     let meant = match units[i].lower.as_ref() {
+        // "Bring it 2 me".
+        "2" if next.has(Role::Person) => ("to", Role::Preposition),
+        "4" if next.has(Role::Person) => ("for", Role::Preposition),
         "two" if next.has(Role::Determiner) || next.has(Role::Hearer) => ("to", Role::Preposition),
         "their" if next.has(Role::Copula) || next.has(Role::Modal) => ("there", Role::There),
         _ => return,
@@ -363,18 +377,20 @@ mod tests {
 
     #[test]
     fn right_before_a_preposition_is_emphasis_unless_a_turn_leads_to_it() {
-        let role = |text: &str| {
+        let is_side = |text: &str| {
             let words = tokenize(text);
-            units(&words, Lexicon::embedded()).iter().find(|u| u.lower == "right").and_then(Unit::role)
+            units(&words, Lexicon::embedded()).iter().find(|u| u.lower == "right").map(|unit| unit.has(Role::Side))
         };
-        assert_eq!(role("it is right on the table"), Some(Role::Adverb));
-        assert_eq!(role("turn right at the door"), Some(Role::Side));
-        assert_eq!(role("on the right by the bed"), Some(Role::Side));
+        assert_eq!(is_side("it is right on the table"), Some(false));
+        assert_eq!(is_side("turn right at the door"), Some(true));
+        assert_eq!(is_side("on the right by the bed"), Some(true));
     }
 
     #[test]
-    fn keys_that_were_left_are_no_direction() {
-        let words = tokenize("i left my keys");
-        assert_eq!(units(&words, Lexicon::embedded())[1].role(), Some(Role::Bring));
+    fn two_words_written_as_one_are_two_units() {
+        assert_eq!(
+            lowers("theres a mug its on the desk"),
+            ["there", "'s", "a", "mug", "it", "'s", "on", "the", "desk"]
+        );
     }
 }

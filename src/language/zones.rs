@@ -61,7 +61,11 @@ pub fn zone(units: &[Unit], first: usize) -> Option<Zone> {
             (unit.has(Role::Adjective) || unit.is_unknown())
                 && units.get(at + 1).is_some_and(|next| next.noun.is_some() && !next.pause)
         });
-    if noun_follows || is(at, &["there"]) || !corner && depth.is_none() || !corner && at == start {
+    if noun_follows
+        || is(at, &["there"]) && !units.get(at + 1).is_some_and(|next| next.has(Role::Copula) || next.has(Role::Modal))
+        || !corner && depth.is_none()
+        || !corner && at == start
+    {
         return None;
     }
     // "The other" and "the near" are parts only with a noun of place; "the front" by itself is before the hearer.

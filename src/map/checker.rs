@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::error::WorldError;
 use super::room_map::FORMAT_VERSION;
+use crate::limits::Limit;
 
 /// Furniture may come this near to a wall's line or stand this deep in another's outline: files are written by hand.
 pub(crate) const TOLERANCE_M: f64 = 0.005;
@@ -20,6 +21,11 @@ impl Checker<'_> {
 
     pub(crate) fn require(&self, good: bool, item: &str, message: impl FnOnce() -> String) -> Result<(), WorldError> {
         if good { Ok(()) } else { Err(self.wrong(item, message())) }
+    }
+
+    /// No more than the limit.
+    pub(crate) fn within(&self, limit: Limit, item: &str, found: usize) -> Result<(), WorldError> {
+        limit.check(found).map_err(|message| self.wrong(item, message))
     }
 
     pub(crate) fn version(&self, found: u32) -> Result<(), WorldError> {

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use serde::Deserialize;
 
+use crate::limits::WORLD_FILE_BYTES;
+
 /// A world that cannot be used, and why.
 #[derive(Debug, thiserror::Error)]
 pub enum WorldError {
@@ -52,7 +54,7 @@ pub enum WorldError {
 /// The text of a file.
 pub(crate) fn read(path: &Path) -> Result<String, WorldError> {
     let file = path.display().to_string();
-    std::fs::read_to_string(path).map_err(|source| WorldError::Unreadable { file, source })
+    WORLD_FILE_BYTES.read_text(path).map_err(|source| WorldError::Unreadable { file, source })
 }
 
 /// Parses a world file, naming the place of what is wrong.

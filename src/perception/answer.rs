@@ -15,6 +15,9 @@ pub struct Answer {
     /// Furniture with its place in the picture, which the depth tells the rest of.
     #[serde(default)]
     pub boxes: Option<Vec<PictureBox>>,
+    /// The number of the frame it answers, where it says so.
+    #[serde(default)]
+    pub number: Option<u64>,
 }
 
 /// A piece where it shows in the picture.

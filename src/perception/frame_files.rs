@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::frame_error::FrameError;
-use super::picture_files::{load_color, load_depth};
+use super::picture_files::PictureFile;
 use super::upright::{CAMERA_HEIGHTS_M, CAMERA_TILTS_DEG, Depths, NoPose, Told, camera_over_floor};
 use crate::frame::{Intrinsics, RgbdFrame, steady};
 use crate::record::PoseSource;
@@ -82,21 +82,16 @@ impl FrameFiles {
     /// # Errors
     /// When a picture cannot be read or does not fit, or nothing tells where the camera was.
     pub fn load(&self, folder: &Path, told: Told) -> Result<(RgbdFrame, PoseSource), FrameError> {
-        let path = folder.join(&self.depth);
-        let (width, height, depth) = load_depth(&path)?;
-        let size = |name: &Path, w, h, other, to: (usize, usize)| {
-            let wrong = || FrameError::Sizes(name.display().to_string(), w, h, other, to.0, to.1);
-            if (w, h) == to { Ok(()) } else { Err(wrong()) }
-        };
-        let said = (self.width.unwrap_or(width), self.height.unwrap_or(height));
-        size(&path, width, height, "the record says", said)?;
+        let depth = PictureFile::open(folder.join(&self.depth))?;
+        let (width, height) = depth.size;
+        depth.require_size("the record says", (self.width.unwrap_or(width), self.height.unwrap_or(height)))?;
         let mut color = Vec::new();
         if let Some(rgb) = &self.rgb {
-            let path = folder.join(rgb);
-            let (w, h, pixels) = load_color(&path)?;
-            size(&path, w, h, "the depth", (width, height))?;
-            color = pixels;
+            let file = PictureFile::open(folder.join(rgb))?;
+            file.require_size("the depth", (width, height))?;
+            color = file.color()?;
         }
+        let depth = depth.depth()?;
         let (depth_unit_m, intrinsics) =
             (self.depth_unit_m, Intrinsics { fx: self.fx, fy: self.fy, cx: self.cx, cy: self.cy });
         let told = self.told(told)?;
@@ -135,6 +130,9 @@ fn no_pose(why: NoPose) -> FrameError {
 ///
 /// A wrong scale would make everything one plane, and a pose that is none
 /// would put furniture into the walls.
+///
+/// # Errors
+/// Which number is wrong, and what it should be.
 pub fn check(frame: &RgbdFrame) -> Result<(), FrameError> {
     let wrong = |what: String| Err(FrameError::Wrong(what));
     if !(1e-5..=1.0).contains(&frame.depth_unit_m) {

@@ -123,7 +123,7 @@ impl Canvas {
         let label = format!("{} {:.0}%", detection.category, 100.0 * detection.confidence);
         if let Some((x, y)) = pixel(frame, [detection.x, detection.y, detection.height]) {
             let right = (self.picture as f64 - LETTER * label.len() as f64).max(0.0);
-            self.label(x.clamp(0.0, right), y.clamp(2.0, self.height as f64 - 2.0 * LETTER), &label, ink);
+            self.label(x.clamp(0.0, right), y.min(self.height as f64 - 2.0 * LETTER).max(2.0), &label, ink);
         }
         let (x, y) = self.on_map(middle);
         self.label(x, y, &label, ink);

@@ -7,7 +7,8 @@ use super::answer::Answer;
 use super::external::ExternalDetector;
 use super::network::joined;
 use super::{Detector, FrameFiles, ObjectSighting, Told, View, check, furniture_chance, overlay};
-use crate::files::write_file;
+use crate::escape::for_file_name;
+use crate::files::{Claims, write_file};
 use crate::frame::RgbdFrame;
 use crate::map::RoomMap;
 use crate::record::{CameraPose, Detection, Note, PoseSource, Record, Rounded, Stage, StageError};
@@ -33,6 +34,8 @@ pub struct Perceiver {
     pub overlay: Option<PathBuf>,
     /// Whether drawings may replace older ones.
     pub force: bool,
+    /// Which drawings belong to which frame of this run.
+    pub claims: Claims,
 }
 
 impl Perceiver {
@@ -53,6 +56,9 @@ impl Perceiver {
     }
 
     /// Adds what a frame from a log shows to its record; `from` says how its pose is known.
+    ///
+    /// # Errors
+    /// As for looking.
     pub fn see(&self, frame: &RgbdFrame, from: PoseSource, record: &mut Record) -> Result<Note, StageError> {
         let name = record.get::<String>("frame")?.or_else(|| record.id());
         self.add(name.as_deref().unwrap_or("frame"), frame, from, record)
@@ -76,17 +82,19 @@ impl Perceiver {
 
     fn draw(&self, name: &str, frame: &RgbdFrame, view: &View, from: PoseSource) -> Result<(), StageError> {
         let Some(folder) = &self.overlay else { return Ok(()) };
-        let plain: String =
-            name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect();
         let written =
             std::fs::create_dir_all(folder).map_err(|error| StageError::new(format!("{}: {error}", folder.display())));
         written?;
-        let path = folder.join(format!("{plain}.png"));
+        let path = folder.join(format!("{}.png", for_file_name(name)));
+        self.claims.claim(&path, name).map_err(|error| StageError::new(error.to_string()))?;
         write_file(&path, &overlay(frame, view, &caption(frame, from)), self.force)
             .map_err(|error| StageError::new(error.to_string()))
     }
 
     /// The frame a record names.
+    ///
+    /// # Errors
+    /// When the record names no frame, or its files are wrong, with the key.
     pub fn frame_of(&self, record: &Record) -> Result<(String, RgbdFrame, PoseSource), StageError> {
         let line = serde_json::to_string(record).map_err(|error| StageError::new(error.to_string()))?;
         let files: FrameFiles = serde_json::from_str(&line).map_err(|error| {
@@ -117,9 +125,15 @@ fn stem(path: &Path) -> String {
 ///
 /// Frames may come from a recording, so the pictures are always handed over as files of their own.
 fn ask(external: &ExternalDetector, frame: &RgbdFrame, record: &Record) -> Result<Answer, StageError> {
-    let failed = |error: &dyn std::fmt::Display| StageError::new(format!("--detector: {error}"));
-    let folder = tempfile::tempdir().map_err(|error| failed(&error))?;
-    let (rgb, depth) = (folder.path().join("rgb.png"), folder.path().join("depth.png"));
+    let answer = external.detect(|number| handed(external.pictures(), frame, record, number));
+    answer.map_err(|error| StageError::new(error.to_string()))
+}
+
+/// The line that hands over a frame under a number, to be repeated in the answer; its pictures take the place of those
+/// of the frame before.
+fn handed(folder: &Path, frame: &RgbdFrame, record: &Record, number: u64) -> Result<String, String> {
+    let failed = |error: &dyn std::fmt::Display| error.to_string();
+    let (rgb, depth) = (folder.join("rgb.png"), folder.join("depth.png"));
     write_file(&depth, &frame.depth_png(), true).map_err(|error| failed(&error))?;
     let has_color = !frame.color.is_empty();
     if has_color {
@@ -129,9 +143,9 @@ fn ask(external: &ExternalDetector, frame: &RgbdFrame, record: &Record) -> Resul
     let handed = serde_json::to_value(&handed).map_err(|error| failed(&error))?;
     // What the frame's line says of its pictures is of other files; everything else it says is handed on.
     let mut line = record.without(&["rgb", "depth", "mask", "camera_height", "camera_tilt"]);
+    line.set("number", &number);
     handed.as_object().into_iter().flatten().for_each(|(key, value)| line.set(key, value));
-    let line = serde_json::to_string(&line).map_err(|error| failed(&error))?;
-    external.detect(&line).map_err(|error| StageError::new(error.to_string()))
+    serde_json::to_string(&line).map_err(|error| failed(&error))
 }
 
 impl Stage for Perceiver {

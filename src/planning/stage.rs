@@ -5,7 +5,7 @@ use super::rooms::{RoomChoice, choose_room, names};
 use crate::language::Lexicon;
 use crate::map::RoomMap;
 use crate::record::{
-    Action, Destination, Grounding, Motion, Note, Plan, Record, RoomSlot, Stage, StageError, doubts_of,
+    Action, Destination, Grounding, Motion, Note, Plan, Record, RoomSlot, Shade, Stage, StageError, doubts_of,
 };
 
 /// Makes plans for one room map.
@@ -143,6 +143,10 @@ impl Stage for Planner {
         lines.extend(plan.actions.iter().enumerate().map(|(i, action)| format!("{:3}. {}", i + 1, sentence(action))));
         lines.extend(plan.problems.iter().chain(&doubts_of(record)?).map(|problem| format!("  !  {problem}")));
         Ok(lines.join("\n"))
+    }
+
+    fn shade(&self, line: &str) -> Shade {
+        if line.starts_with("  !  ") { Shade::Bad } else { Shade::Plain }
     }
 }
 

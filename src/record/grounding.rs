@@ -1,5 +1,7 @@
 //! What `ground` adds: `grounding`.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +43,9 @@ pub struct Grounding {
     /// Content words that changed nothing.
     #[serde(default)]
     pub unused: Vec<TextSpan>,
+    /// What the score was charged for, and how often: words left out, nouns nobody knows, corrections and the like.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub doubts: BTreeMap<String, f64>,
     /// What made the reading doubtful or changed it: a negation, a correction.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,

@@ -12,12 +12,16 @@ use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::value::RawValue;
 
+use crate::escape::for_file_name;
+
 use super::Part;
 
 /// A record: keys in their order, values as raw JSON.
 #[derive(Debug, Default)]
 pub struct Record<'line> {
     line: &'line str,
+    /// Where it stands in the input, counted from 1; 0 where it comes from no input.
+    ordinal: usize,
     fields: Vec<(Cow<'line, str>, Cow<'line, RawValue>)>,
 }
 
@@ -35,6 +39,9 @@ pub struct FieldError {
 
 impl<'line> Record<'line> {
     /// Parses one line.
+    ///
+    /// # Errors
+    /// When the line is no JSON object, with the column.
     pub fn parse(line: &'line str) -> Result<Self, serde_json::Error> {
         serde_json::from_str(line).map(|record| Self { line, ..record })
     }
@@ -55,7 +62,7 @@ impl<'line> Record<'line> {
     /// The same record without some of its keys: as it was before the stages that added them.
     pub fn without(&self, keys: &[&str]) -> Self {
         let fields = self.fields.iter().filter(|(key, _)| !keys.contains(&key.as_ref()));
-        Self { line: self.line, fields: fields.cloned().collect() }
+        Self { line: self.line, ordinal: self.ordinal, fields: fields.cloned().collect() }
     }
 
     /// The raw JSON under `key`.
@@ -64,6 +71,9 @@ impl<'line> Record<'line> {
     }
 
     /// The value under `key`, or nothing when the key is absent.
+    ///
+    /// # Errors
+    /// When the value is not of that type.
     pub fn get<'a, T: Deserialize<'a>>(&'a self, key: &str) -> Result<Option<T>, FieldError> {
         let Some(raw) = self.raw(key) else { return Ok(None) };
         serde_json::from_str(raw.get()).map(Some).map_err(|error| FieldError {
@@ -74,6 +84,9 @@ impl<'line> Record<'line> {
     }
 
     /// The value under `key`; its absence is an error that says which stage adds it.
+    ///
+    /// # Errors
+    /// When the key is absent, or its value not of that type.
     pub fn require<'a, T: Deserialize<'a>>(&'a self, key: &str, added_by: &str) -> Result<T, FieldError> {
         self.get(key)?.ok_or_else(|| FieldError {
             key: key.to_string(),
@@ -93,11 +106,17 @@ impl<'line> Record<'line> {
     }
 
     /// What a stage has added, or nothing where it has not run.
+    ///
+    /// # Errors
+    /// When the value is not what the stage writes.
     pub fn part<'a, T: Part + Deserialize<'a>>(&'a self) -> Result<Option<T>, FieldError> {
         self.get(T::KEY)
     }
 
     /// What a stage has added; its absence is an error that says which stage adds it.
+    ///
+    /// # Errors
+    /// When the key is absent, or its value not what the stage writes.
     pub fn require_part<'a, T: Part + Deserialize<'a>>(&'a self, added_by: &str) -> Result<T, FieldError> {
         self.require(T::KEY, added_by)
     }
@@ -111,6 +130,30 @@ impl<'line> Record<'line> {
     pub fn id(&self) -> Option<String> {
         let raw = self.raw("id")?.get();
         if raw.starts_with('"') { serde_json::from_str(raw).ok() } else { Some(raw.to_string()) }
+    }
+
+    /// The same record, as the one that stands there in the input.
+    pub fn at(self, ordinal: usize) -> Self {
+        Self { ordinal, ..self }
+    }
+
+    /// What files of this record are called: after its id; without one, after its place in the input.
+    pub fn file_name(&self) -> String {
+        match self.id() {
+            Some(id) => for_file_name(&id),
+            None if self.ordinal > 0 => format!("%line-{}", self.ordinal),
+            None => "record".to_string(),
+        }
+    }
+
+    /// The keys whose values are texts, numbers, truth values or null, with the values as text; null is empty.
+    pub fn scalars(&self) -> impl Iterator<Item = (&str, String)> {
+        self.fields.iter().filter_map(|(key, raw)| match raw.get() {
+            "null" => Some((key.as_ref(), String::new())),
+            text if text.starts_with('"') => Some((key.as_ref(), serde_json::from_str(text).ok()?)),
+            other if other.starts_with(['{', '[']) => None,
+            other => Some((key.as_ref(), other.to_string())),
+        })
     }
 
     /// Bytes from the start of the line to `value`, when it is a slice of the line.
@@ -159,7 +202,7 @@ impl<'de> Visitor<'de> for RecordVisitor {
             }
             fields.push((key, Cow::Borrowed(map.next_value::<&'de RawValue>()?)));
         }
-        Ok(Record { line: "", fields })
+        Ok(Record { line: "", ordinal: 0, fields })
     }
 }
 

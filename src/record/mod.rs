@@ -18,6 +18,7 @@ mod part;
 mod plan;
 mod precision;
 mod reference;
+mod row;
 mod stage;
 mod trial;
 
@@ -34,5 +35,6 @@ pub use part::Part;
 pub use plan::{Action, Plan, SearchPair};
 pub use precision::Rounded;
 pub use reference::Reference;
-pub use stage::{Note, Stage, StageError};
+pub use row::{Row, csv_line};
+pub use stage::{Note, Shade, Stage, StageError};
 pub use trial::{ActionReport, Delivery, Outcome, PathPoint, Trial};

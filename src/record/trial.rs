@@ -13,6 +13,9 @@ pub struct Trial {
     pub outcome: Outcome,
     /// One sentence that says why it ended so.
     pub why: String,
+    /// Where the object was found, as a person would say it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub description: Option<String>,
     /// Where the robot ended.
     pub final_pose: Pose,
     /// The furniture at which the object was found, by the scene's id where the truth is known.
@@ -74,6 +77,27 @@ pub enum Outcome {
     Stopped,
     /// The robot stopped answering.
     LinkLost,
+}
+
+impl Outcome {
+    /// The name as it stands in records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Found => "found",
+            Self::Arrived => "arrived",
+            Self::NotFound => "not_found",
+            Self::Blocked => "blocked",
+            Self::Stuck => "stuck",
+            Self::Timeout => "timeout",
+            Self::Stopped => "stopped",
+            Self::LinkLost => "link_lost",
+        }
+    }
+
+    /// The name in words.
+    pub fn phrase(self) -> String {
+        self.name().replace('_', " ")
+    }
 }
 
 /// One action as it went.

@@ -1,20 +1,78 @@
 //! One chunk of a log: unpacked, checked, its messages in order of time.
 
+use std::collections::VecDeque;
 use std::io::Read;
+use std::ops::Range;
 
 use mcap::Message;
-use mcap::read::ChannelAccumulator;
-use mcap::records::op;
+use mcap::read::{ChannelAccumulator, parse_record};
+use mcap::records::{Record, op};
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
 use super::link::link;
-use crate::limits::MCAP_RECORD_BYTES;
+use crate::limits::{MCAP_CHUNK_BYTES, MCAP_CHUNK_RATIO, MCAP_RECORD_BYTES};
 
 /// What a chunk held.
+#[derive(Default)]
 pub(super) struct Unpacked {
-    pub(super) messages: Vec<Message<'static>>,
+    pub(super) messages: Messages,
     /// What is wrong with it.
     pub(super) damage: Option<String>,
+}
+
+/// The messages of a chunk in order of time. They lie side by side in memory and are made one by one: small ones are
+/// many times as large once they stand on their own.
+#[derive(Default)]
+pub(super) struct Messages {
+    bodies: Vec<u8>,
+    /// When each was logged, and where it lies.
+    order: VecDeque<(u64, Range<usize>)>,
+}
+
+impl Messages {
+    pub(super) fn count(&self) -> usize {
+        self.order.len()
+    }
+
+    /// The next message.
+    pub(super) fn next(&mut self, links: &mut ChannelAccumulator<'static>) -> Option<Message<'static>> {
+        let (_, place) = self.order.pop_front()?;
+        // Its channel was there when the chunk was unpacked, so it is now.
+        link(op::MESSAGE, &self.bodies[place], links).ok().flatten().or_else(|| self.next(links))
+    }
+
+    /// When the next message was logged, nanoseconds.
+    pub(super) fn next_ns(&self) -> Option<u64> {
+        self.order.front().map(|&(log_time, _)| log_time)
+    }
+
+    fn push(&mut self, body: &[u8], links: &ChannelAccumulator<'static>) -> mcap::McapResult<()> {
+        if let Record::Message { header, .. } = parse_record(op::MESSAGE, body)? {
+            if links.get(header.channel_id).is_none() {
+                return Err(mcap::McapError::UnknownChannel(header.sequence, header.channel_id));
+            }
+            let from = self.bodies.len();
+            self.bodies.extend_from_slice(body);
+            self.order.push_back((header.log_time, from..self.bodies.len()));
+        }
+        Ok(())
+    }
+}
+
+/// Chunks up to this size are unpacked however small they were packed: pictures of nothing pack well.
+const ALWAYS_UNPACKED: u64 = 1 << 24;
+
+/// What is wrong with the size that a chunk's head says it unpacks to.
+fn oversized(body: &[u8]) -> Option<String> {
+    let size = u64::from_le_bytes(body.get(16..24)?.try_into().ok()?);
+    if size <= ALWAYS_UNPACKED {
+        None
+    } else if size > MCAP_CHUNK_BYTES.value {
+        Some(MCAP_CHUNK_BYTES.exceeded(&size.to_string()))
+    } else {
+        let ratio = size / (body.len() as u64).max(1);
+        (ratio > MCAP_CHUNK_RATIO.value).then(|| MCAP_CHUNK_RATIO.exceeded(&ratio.to_string()))
+    }
 }
 
 /// Unpacks a chunk record whose header promises `length` bytes, of which `body` are there.
@@ -27,12 +85,15 @@ pub(super) fn unpack(length: u64, body: &[u8], links: &mut ChannelAccumulator<'s
         .with_validate_chunk_crcs(checked)
         .with_prevalidate_chunk_crcs(checked)
         .with_record_length_limit(MCAP_RECORD_BYTES.count());
+    if let Some(damage) = oversized(body) {
+        return Unpacked { damage: Some(damage), ..Unpacked::default() };
+    }
     let body = before_overrun(body);
     let mut reader = LinearReader::new_with_options(options);
     let mut head = [op::CHUNK; 9];
     head[1..].copy_from_slice(&length.to_le_bytes());
     let mut bytes = head.as_slice().chain(body);
-    let mut unpacked = Unpacked { messages: Vec::new(), damage: None };
+    let mut unpacked = Unpacked::default();
     while let Some(event) = reader.next_event() {
         let step = match event {
             Ok(LinearReadEvent::ReadRequest(need)) => {
@@ -40,26 +101,24 @@ pub(super) fn unpack(length: u64, body: &[u8], links: &mut ChannelAccumulator<'s
                 // Reading from memory cannot fail.
                 let read = bytes.read(reader.insert(need)).unwrap_or(0);
                 reader.notify_read(read);
-                Ok(None)
+                Ok(())
             }
-            Ok(LinearReadEvent::Record { data, opcode: opcode @ (op::SCHEMA | op::CHANNEL | op::MESSAGE) }) => {
-                link(opcode, data, links)
+            Ok(LinearReadEvent::Record { data, opcode: op::MESSAGE }) => unpacked.messages.push(data, links),
+            Ok(LinearReadEvent::Record { data, opcode: opcode @ (op::SCHEMA | op::CHANNEL) }) => {
+                link(opcode, data, links).map(|_| ())
             }
-            Ok(LinearReadEvent::Record { .. }) => Ok(None),
+            Ok(LinearReadEvent::Record { .. }) => Ok(()),
             Err(error) => Err(error),
         };
-        match step {
-            Ok(message) => unpacked.messages.extend(message),
-            Err(error) => {
-                unpacked.damage = Some(error.to_string());
-                break;
-            }
+        if let Err(error) = step {
+            unpacked.damage = Some(error.to_string());
+            break;
         }
     }
     if checked && unpacked.damage.is_some() {
-        unpacked.messages.clear();
+        unpacked.messages = Messages::default();
     }
-    unpacked.messages.sort_by_key(|message| message.log_time);
+    unpacked.messages.order.make_contiguous().sort_by_key(|(log_time, _)| *log_time);
     unpacked
 }
 
@@ -103,11 +162,23 @@ mod tests {
     }
 
     #[test]
+    fn a_chunk_that_says_it_unpacks_to_too_much_is_not_unpacked() {
+        let claiming = |size: u64, packed: usize| {
+            let mut body = vec![0; packed];
+            body[16..24].copy_from_slice(&size.to_le_bytes());
+            unpack(packed as u64, &body, &mut ChannelAccumulator::default(), false).damage.unwrap_or_default()
+        };
+        assert!(claiming(1 << 40, 100).contains("bytes are more than the 268435456"));
+        assert!(claiming(1 << 27, 22_000).contains("6100 unpacked bytes for each packed one are more than the 200"));
+        assert!(!claiming(1 << 24, 100).contains("more than"));
+    }
+
+    #[test]
     fn a_record_that_reaches_beyond_its_chunk_is_damage() {
         assert_eq!(before_overrun(&chunk(12 + 109)).len(), 40 + 12 + 109);
         let cut = chunk(12 + 20);
         assert_eq!(before_overrun(&cut).len(), 40 + 12);
         let unpacked = unpack(cut.len() as u64, &cut, &mut ChannelAccumulator::default(), false);
-        assert!(unpacked.damage.is_some() && unpacked.messages.is_empty());
+        assert!(unpacked.damage.is_some() && unpacked.messages.count() == 0);
     }
 }

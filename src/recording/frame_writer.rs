@@ -49,11 +49,17 @@ pub struct FrameWriter<W: Write> {
 
 impl<W: Write> FrameWriter<W> {
     /// Begins a log of frames, uncompressed.
+    ///
+    /// # Errors
+    /// When the target takes no bytes.
     pub fn new(target: W) -> Result<Self, LogError> {
         Ok(Self { log: LogWriter::new(McapSink::new(target, None)?) })
     }
 
     /// Writes one frame and flushes it.
+    ///
+    /// # Errors
+    /// When the target takes no more.
     pub fn write(&mut self, frame: &TimedFrame) -> Result<(), LogError> {
         self.log.message(TF, frame.log_ns, &camera_transforms(frame))?;
         write_pictures(&mut self.log, frame)?;
@@ -61,6 +67,9 @@ impl<W: Write> FrameWriter<W> {
     }
 
     /// Ends the log.
+    ///
+    /// # Errors
+    /// When the target takes no more.
     pub fn finish(self) -> Result<W, LogError> {
         self.log.into_sink().finish()
     }

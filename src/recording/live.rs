@@ -60,6 +60,9 @@ struct ShownTopic {
 
 impl Live {
     /// Listens at `host` (a name or number; IPv6 in brackets) and `port`; 0 takes any that is free.
+    ///
+    /// # Errors
+    /// When the address cannot be listened at.
     pub fn serve(host: &str, port: u16) -> io::Result<Self> {
         let runtime = Builder::new_current_thread().enable_all().build()?;
         let (context, handle) = (Context::new(), runtime.handle().clone());

@@ -11,7 +11,7 @@ use mcap::Message;
 use mcap::read::{ChannelAccumulator, parse_record};
 use mcap::records::{Record, op};
 
-use super::chunk::unpack;
+use super::chunk::{Messages, unpack};
 use super::link::link;
 use super::{LogError, Loss};
 use crate::limits::MCAP_RECORD_BYTES;
@@ -35,6 +35,8 @@ pub struct LogReader<R> {
     at_byte: u64,
     checksum: crc32fast::Hasher,
     links: ChannelAccumulator<'static>,
+    /// What is left of the last chunk; it comes before what is ready.
+    chunk: Messages,
     ready: VecDeque<Result<Message<'static>, Loss>>,
     whole: bool,
     state: State,
@@ -50,6 +52,9 @@ enum State {
 
 impl<R: Read> LogReader<R> {
     /// Reads from `source`; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// When nothing can be read, or it is no MCAP log.
     pub fn new(mut source: R, name: &str, recover: bool) -> Result<Self, LogError> {
         let mut magic = [0; 8];
         match source.read_exact(&mut magic) {
@@ -67,6 +72,7 @@ impl<R: Read> LogReader<R> {
             at_byte: magic.len() as u64,
             checksum,
             links: ChannelAccumulator::default(),
+            chunk: Messages::default(),
             ready: VecDeque::new(),
             whole: true,
             state: State::Data,
@@ -152,13 +158,15 @@ impl<R: Read> LogReader<R> {
     fn take_chunk(&mut self, begins: u64, body: &[u8]) {
         let (messages, loss) = messages_of_chunk(begins, body, &mut self.links, self.recover);
         self.whole &= loss.is_none();
-        self.ready.extend(messages.into_iter().map(Ok).chain(loss.map(Err)));
+        self.chunk = messages;
+        self.ready.extend(loss.map(Err));
     }
 
     /// Takes what can be unpacked of a damaged or cut chunk.
     fn salvage(&mut self, begins: u64, length: u64, body: &[u8]) {
         let (messages, loss) = salvaged(begins, length, body, &mut self.links);
-        self.ready.extend(messages.into_iter().map(Ok).chain([Err(loss)]));
+        self.chunk = messages;
+        self.ready.push_back(Err(loss));
     }
 
     fn take_plain(&mut self, begins: u64, opcode: u8, body: &[u8]) {
@@ -217,14 +225,17 @@ impl<R: Read> Iterator for LogReader<R> {
     type Item = Result<Message<'static>, Loss>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        while self.ready.is_empty() && self.state != State::Ended {
+        loop {
+            if let Some(message) = self.chunk.next(&mut self.links) {
+                return Some(Ok(message));
+            }
+            if !self.ready.is_empty() || self.state == State::Ended {
+                return self.ready.pop_front();
+            }
             self.advance();
         }
-        self.ready.pop_front()
     }
 }
-
-type Messages = Vec<Message<'static>>;
 
 /// The messages of a chunk, and what is wrong with it; of a damaged one nothing, or with `recover` what can be unpacked.
 pub(super) fn messages_of_chunk(
@@ -240,11 +251,13 @@ pub(super) fn messages_of_chunk(
         return (messages, Some(loss));
     }
     let hint = "its messages are left out; --recover takes what can be unpacked, unchecked";
-    (Vec::new(), Some(Loss::at(begins, format!("damaged chunk ({damage}): {hint}"))))
+    (Messages::default(), Some(Loss::at(begins, format!("damaged chunk ({damage}): {hint}"))))
 }
 
 fn salvaged(begins: u64, length: u64, body: &[u8], links: &mut ChannelAccumulator<'static>) -> (Messages, Loss) {
-    let messages = unpack(length, body, links, false).messages;
-    let what = format!("damaged chunk: {} messages salvaged, which no checksum vouches for", messages.len());
+    let unpacked = unpack(length, body, links, false);
+    let messages = unpacked.messages;
+    let damage = unpacked.damage.map_or(String::new(), |damage| format!(" ({damage})"));
+    let what = format!("damaged chunk{damage}: {} messages salvaged, which no checksum vouches for", messages.count());
     (messages, Loss::at(begins, what))
 }

@@ -11,6 +11,9 @@ pub enum Live {}
 
 impl Live {
     /// Always an error.
+    ///
+    /// # Errors
+    /// Always: this build has no server.
     pub fn serve(_host: &str, _port: u16) -> io::Result<Self> {
         Err(io::ErrorKind::Unsupported.into())
     }

@@ -68,6 +68,9 @@ impl<R: Read> Iterator for RecordReader<R> {
 }
 
 /// The records of a whole and undamaged log on one topic.
+///
+/// # Errors
+/// When it cannot be read, is no MCAP log or is damaged, or a record is not UTF-8.
 pub fn records(path: &Path, topic: &str) -> Result<Vec<String>, LogError> {
     let file = path.display().to_string();
     let unreadable = |what: String| LogError::System(file.clone(), std::io::Error::other(what));

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::error::LogError;
 use super::outputs::{Outputs, TruePiece};
 use super::pace::Pace;
-use super::shapes::Piece;
+use super::shapes::ShownPiece;
 use super::timed_frame::TimedFrame;
 use super::trial_log::TrialLog;
 use super::trial_sinks::Target;
@@ -80,7 +80,7 @@ impl Recorder {
         }
         log.walls(&about.map.walls(), about.map.wall_height);
         log.grid(0.0, &grid_of(about.map));
-        let pieces = about.truth.iter().map(|piece| Piece {
+        let pieces = about.truth.iter().map(|piece| ShownPiece {
             label: piece.id.clone(),
             corners: &piece.corners,
             height: piece.height,
@@ -107,6 +107,9 @@ impl Recorder {
     }
 
     /// Ends the log with the last picture and the record as `drive` writes it.
+    ///
+    /// # Errors
+    /// When anything could not be written on the way.
     pub fn finish(mut self, duration_s: f64, picture: Vec<u8>, record: &str) -> Result<(), LogError> {
         let end = duration_s;
         self.log.picture(end, picture);
@@ -162,9 +165,9 @@ impl Watcher for Recorder {
     }
 
     fn furniture(&mut self, time_s: f64, furniture: &[Furniture]) {
-        let pieces: Vec<Piece> = furniture
+        let pieces: Vec<ShownPiece> = furniture
             .iter()
-            .map(|f| Piece { label: f.label(), corners: f.footprint.corners(), height: f.detection.height })
+            .map(|f| ShownPiece { label: f.label(), corners: f.footprint.corners(), height: f.detection.height })
             .collect();
         self.log.believed(time_s, &pieces);
     }

@@ -11,7 +11,7 @@ use crate::geometry::{ClearanceGrid, Pose, Vec2};
 
 /// A piece of furniture to be shown.
 #[derive(Clone, Debug)]
-pub struct Piece<'a> {
+pub struct ShownPiece<'a> {
     /// Its name.
     pub label: String,
     /// Corners on the floor, counter-clockwise, metres.
@@ -57,7 +57,7 @@ pub(super) fn walls(walls: &[(Vec2, Vec2)], height: f64) -> SceneUpdate {
 }
 
 /// Furniture as prisms with their names.
-pub(super) fn furniture(layer: &str, time_ns: u64, pieces: &[Piece], color: Color) -> SceneUpdate {
+pub(super) fn furniture(layer: &str, time_ns: u64, pieces: &[ShownPiece], color: Color) -> SceneUpdate {
     let entities = pieces.iter().map(|piece| SceneEntity {
         triangles: vec![prism(piece, color)],
         texts: vec![label(piece)],
@@ -67,7 +67,7 @@ pub(super) fn furniture(layer: &str, time_ns: u64, pieces: &[Piece], color: Colo
 }
 
 /// Top and sides of a prism as triangles.
-fn prism(piece: &Piece, color: Color) -> TriangleListPrimitive {
+fn prism(piece: &ShownPiece, color: Color) -> TriangleListPrimitive {
     let corners = piece.corners;
     let mut points = Vec::new();
     for i in 0..corners.len() {
@@ -86,7 +86,7 @@ fn prism(piece: &Piece, color: Color) -> TriangleListPrimitive {
     }
 }
 
-fn label(piece: &Piece) -> TextPrimitive {
+fn label(piece: &ShownPiece) -> TextPrimitive {
     let sum = piece.corners.iter().fold(Vec2::zeros(), |sum, corner| sum + corner);
     let middle = sum / piece.corners.len().max(1) as f64;
     let mut pose = pose3(Pose::new(middle.x, middle.y, 0.0));

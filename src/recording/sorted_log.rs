@@ -9,11 +9,17 @@ use mcap::read::ChannelAccumulator;
 use mcap::records::op;
 
 use super::Loss;
-use super::chunk::unpack;
+use super::chunk::{Messages, unpack};
 use super::link::link;
 use super::log_reader::messages_of_chunk;
 use super::survey::{Entry, Survey};
 use crate::limits::MCAP_RECORD_BYTES;
+
+/// What was read and is not handed on yet.
+enum Held {
+    Chunk(Messages),
+    One(Message<'static>),
+}
 
 /// Reads each chunk when its time has come; only chunks that overlap in time are held together.
 pub struct SortedLog {
@@ -21,8 +27,8 @@ pub struct SortedLog {
     recover: bool,
     entries: VecDeque<Entry>,
     links: ChannelAccumulator<'static>,
-    /// By time, and by the order read.
-    pending: BTreeMap<(u64, u64), Message<'static>>,
+    /// By the time of the next message of each, and by the order read.
+    pending: BTreeMap<(u64, u64), Held>,
     count: u64,
     lost: VecDeque<Loss>,
 }
@@ -83,18 +89,36 @@ impl SortedLog {
             Ok(record) => record,
             Err(error) => return self.lost.push_back(Loss::at(entry.at_byte, error)),
         };
-        let (messages, loss) = if opcode == op::CHUNK {
-            messages_of_chunk(entry.at_byte, &body, &mut self.links, self.recover)
-        } else {
-            match link(opcode, &body, &mut self.links) {
-                Ok(message) => (message.into_iter().collect(), None),
-                Err(error) => (Vec::new(), Some(Loss::at(entry.at_byte, format!("damaged record, left out: {error}")))),
+        self.count += 1;
+        if opcode == op::CHUNK {
+            let (messages, loss) = messages_of_chunk(entry.at_byte, &body, &mut self.links, self.recover);
+            self.lost.extend(loss);
+            return self.hold(messages, self.count);
+        }
+        match link(opcode, &body, &mut self.links) {
+            Ok(Some(message)) => {
+                self.pending.insert((message.log_time, self.count), Held::One(message));
             }
-        };
-        self.lost.extend(loss);
-        for message in messages {
-            self.count += 1;
-            self.pending.insert((message.log_time, self.count), message);
+            Ok(None) => {}
+            Err(error) => self.lost.push_back(Loss::at(entry.at_byte, format!("damaged record, left out: {error}"))),
+        }
+    }
+
+    fn hold(&mut self, messages: Messages, number: u64) {
+        if let Some(time) = messages.next_ns() {
+            self.pending.insert((time, number), Held::Chunk(messages));
+        }
+    }
+
+    fn next_held(&mut self) -> Option<Message<'static>> {
+        let ((_, number), held) = self.pending.pop_first()?;
+        match held {
+            Held::One(message) => Some(message),
+            Held::Chunk(mut messages) => {
+                let message = messages.next(&mut self.links);
+                self.hold(messages, number);
+                message
+            }
         }
     }
 }
@@ -113,7 +137,7 @@ impl Iterator for SortedLog {
                     self.entries.pop_front();
                     self.load(entry);
                 }
-                _ => return self.pending.pop_first().map(|(_, message)| Ok(message)),
+                _ => return self.next_held().map(Ok),
             }
         }
     }

@@ -10,7 +10,7 @@ use super::frame_writer::{TF, camera_transforms, link_to_optical, transform, wri
 use super::log_writer::LogWriter;
 use super::mount::tower_link;
 use super::record_schema::RECORD_SCHEMA;
-use super::shapes::{self, Piece, pose3};
+use super::shapes::{self, ShownPiece, pose3};
 use super::time::{nanoseconds, timestamp};
 use super::timed_frame::in_space;
 use super::trial_sinks::TrialSinks;
@@ -42,6 +42,9 @@ struct Velocity {
 impl TrialLog {
     /// Begins a log; refuses a file that exists unless forced. `camera` is where it sits on the robot, `about` says
     /// how the trial is run.
+    ///
+    /// # Errors
+    /// When the file exists and is not to be overwritten, or cannot be written.
     pub fn create(target: &Target, camera: &Camera, about: BTreeMap<String, String>) -> Result<Self, LogError> {
         let name = target.file.map_or("the log".to_string(), |path| path.display().to_string());
         let log = Self::begin(target, camera, about).map_err(|error| error.named(&name))?;
@@ -131,7 +134,7 @@ impl TrialLog {
     }
 
     /// What the robot believes of the furniture.
-    pub fn believed(&mut self, time_s: f64, pieces: &[Piece]) {
+    pub fn believed(&mut self, time_s: f64, pieces: &[ShownPiece]) {
         let color = Color { r: 0.2, g: 0.45, b: 0.8, a: 0.8 };
         let time_ns = nanoseconds(time_s);
         let update = shapes::furniture("believed", time_ns, pieces, color);
@@ -139,7 +142,7 @@ impl TrialLog {
     }
 
     /// What is true of the furniture.
-    pub fn truth(&mut self, pieces: &[Piece]) {
+    pub fn truth(&mut self, pieces: &[ShownPiece]) {
         let color = Color { r: 0.7, g: 0.6, b: 0.45, a: 0.4 };
         let update = shapes::furniture("true", 0, pieces, color);
         self.put(|log| log.message("/fetch/scene_true", 0, &update));
@@ -188,6 +191,9 @@ impl TrialLog {
     }
 
     /// Ends the log; tells of any write that failed on the way.
+    ///
+    /// # Errors
+    /// When anything could not be written on the way.
     pub fn finish(mut self, time_s: f64) -> Result<(), LogError> {
         self.flush(time_s);
         let finished = match self.failed {

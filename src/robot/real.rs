@@ -36,6 +36,12 @@ pub trait Remote: Send + Sync {
     /// Stops the robot for good, lets go of it, and waits until that is done.
     fn stop(&self);
 
+    /// Brings the robot to stand, and waits until it does; what it is asked for is passed over until it may go on.
+    fn pause(&self);
+
+    /// The robot may go on, zero set-points first.
+    fn go_on(&self);
+
     /// Whether someone has told it to stop for good.
     fn is_stopping(&self) -> bool;
 

@@ -1,20 +1,28 @@
 //! Scenes that cannot be.
 
-use super::{Item, PlacedObject, Scene};
+use super::{Item, Noise, PlacedObject, Scene};
 use crate::catalogue::CATEGORIES;
 use crate::frame::CameraMount;
 use crate::geometry::{Polygon, distance_to_segment, vec2};
+use crate::language::{Class, Lexicon};
+use crate::limits::{HOME_COORDINATE_M, ITEM_SIZE_M, SCENE_ITEMS, SCENE_OBJECTS};
 use crate::map::checker::{Checker, TOLERANCE_M, nearest_name};
 use crate::map::{Room, RoomMap, WorldError};
 
 /// Checks a scene against its room map.
+///
+/// # Errors
+/// What is wrong with the first wrong item, and what mends it.
 pub fn check(scene: &Scene, map: &RoomMap, file: &str) -> Result<(), WorldError> {
     let checker = Checker { file };
     checker.version(scene.version)?;
     checker.require(scene.map == map.name, "map", || {
         format!("the scene is for the map `{}`, the map given is `{}`; give the one it names", scene.map, map.name)
     })?;
+    checker.within(SCENE_ITEMS, "furniture", scene.furniture.len())?;
+    checker.within(SCENE_OBJECTS, "objects", scene.objects.len())?;
     check_camera(&checker, scene)?;
+    check_noise(&checker, scene.noise.unwrap_or_default())?;
     checker.unique("furniture", scene.furniture.iter().map(|item| item.id.as_str()))?;
     checker.unique("object", scene.objects.iter().map(|object| object.id.as_str()))?;
     for item in &scene.furniture {
@@ -31,6 +39,8 @@ pub fn check(scene: &Scene, map: &RoomMap, file: &str) -> Result<(), WorldError>
 const HIGHEST_CAMERA_M: f64 = 2.0;
 /// How far a camera looks up or down and still shows the room, degrees.
 const STEEPEST_DEG: f64 = 60.0;
+/// A thousand turns: beyond them an angle has lost its degrees.
+const MOST_DEG: f64 = 360_000.0;
 
 fn check_camera(checker: &Checker, scene: &Scene) -> Result<(), WorldError> {
     let CameraMount { height_m, tilt_deg } = scene.camera.unwrap_or_default();
@@ -44,6 +54,32 @@ fn check_camera(checker: &Checker, scene: &Scene) -> Result<(), WorldError> {
     })
 }
 
+/// Errors of which a robot could still be said to drive: beyond them it stands in another house, or turns on the spot.
+fn check_noise(checker: &Checker, noise: Noise) -> Result<(), WorldError> {
+    const HALF_TURN: f64 = std::f64::consts::PI;
+    let Noise { start_m, start_rad, wheel_scale, wheel_mismatch, track_scale, slip, .. } = noise;
+    let Noise { sonar_share, sonar_m, sonar_miss, sonar_crosstalk, compass_bias_rad, compass_rad, .. } = noise;
+    let values = [
+        ("start_m", start_m, 2.0),
+        ("start_rad", start_rad, HALF_TURN),
+        ("wheel_scale", wheel_scale, 0.3),
+        ("wheel_mismatch", wheel_mismatch, 0.3),
+        ("track_scale", track_scale, 0.3),
+        ("slip", slip, 0.3),
+        ("sonar_share", sonar_share, 1.0),
+        ("sonar_m", sonar_m, 2.0),
+        ("sonar_miss", sonar_miss, 1.0),
+        ("sonar_crosstalk", sonar_crosstalk, 1.0),
+        ("compass_bias_rad", compass_bias_rad, HALF_TURN),
+        ("compass_rad", compass_rad, HALF_TURN),
+    ];
+    values.into_iter().try_for_each(|(name, value, most)| {
+        checker.require((0.0..=most).contains(&value), "noise", || {
+            format!("`{name}` {value} is no size of an error; give 0 to {most:.2}")
+        })
+    })
+}
+
 fn check_item(checker: &Checker, map: &RoomMap, item: &Item) -> Result<(), WorldError> {
     let name = format!("furniture `{}`", item.id);
     let known = CATEGORIES.iter().any(|category| category.name == item.category);
@@ -52,10 +88,15 @@ fn check_item(checker: &Checker, map: &RoomMap, item: &Item) -> Result<(), World
     checker.require(read, &name, || "its mesh was not read; load the scene from its file".to_string())?;
     let size = item.size();
     let sizes = [size.length, size.width, size.height];
-    checker
-        .require(sizes.iter().all(|v| v.is_finite() && *v > 0.0), &name, || "sizes must be above 0 m".to_string())?;
-    let numbers = [item.x, item.y, item.yaw_deg].iter().all(|v| v.is_finite());
-    checker.require(numbers, &name, || "x, y and yaw_deg must be numbers".to_string())?;
+    let most = ITEM_SIZE_M.value;
+    checker.require(sizes.iter().all(|v| *v > 0.0 && *v <= most as f64), &name, || {
+        let [length, width, height] = sizes;
+        format!("{length} × {width} × {height}: sizes must be above 0 m and at most {most} m")
+    })?;
+    let numbers = [item.x, item.y].iter().all(|v| v.abs() <= HOME_COORDINATE_M.value as f64);
+    checker.require(numbers && item.yaw_deg.abs() <= MOST_DEG, &name, || {
+        "x, y and yaw_deg must be numbers of metres and degrees".to_string()
+    })?;
     check_room(checker, map, item, &name)
 }
 
@@ -129,11 +170,27 @@ fn check_object(checker: &Checker, scene: &Scene, object: &PlacedObject) -> Resu
         let message = format!("lies on `{}`, which is no furniture of the scene; {mend}", object.on);
         return Err(checker.wrong(&name, message));
     };
-    let numbers = [object.forward, object.left, object.yaw_deg].iter().all(|v| v.is_finite());
+    check_name(checker, object, &name)?;
+    let numbers = [object.forward, object.left].iter().all(|v| v.abs() <= ITEM_SIZE_M.value as f64)
+        && object.yaw_deg.abs() <= MOST_DEG;
     checker.require(numbers, &name, || "forward, left and yaw_deg must be numbers".to_string())?;
     let on_top = holder.footprint().contains(object.pose_on(holder).position());
     checker.require(on_top, &name, || {
         format!("lies beside `{}`, not on it; bring `forward` and `left` nearer to 0", object.on)
+    })
+}
+
+/// An object is called by a name that sentences can mean it by.
+fn check_name(checker: &Checker, object: &PlacedObject, item: &str) -> Result<(), WorldError> {
+    let (lexicon, words) = (Lexicon::embedded(), object.name.replace('_', " "));
+    let known = lexicon.noun(&words);
+    checker.require(known.is_none_or(|noun| noun.class == Class::Object), item, || {
+        format!("`{}` is furniture or a room to whoever says it; give it the name of a small thing", object.name)
+    })?;
+    let meant = lexicon.mended(&words).filter(|noun| known.is_none() && noun.class == Class::Object);
+    checker.require(meant.is_none(), item, || {
+        let meant = meant.map_or("", |noun| noun.name.as_str());
+        format!("`{}` is no name that sentences are read by; did you mean `{meant}`?", object.name)
     })
 }
 
@@ -173,7 +230,28 @@ mod tests {
     #[test]
     fn not_a_number_and_no_size_are_refused() {
         assert!(scene_error(|s| s.furniture[0].x = f64::NAN).contains("must be numbers"));
-        assert!(scene_error(|s| s.furniture[0].length = Some(-1.0)).contains("sizes must be above 0 m"));
+        for size in [-1.0, 2000.0, 1e308, f64::INFINITY] {
+            assert!(scene_error(|s| s.furniture[0].length = Some(size)).contains("sizes must be above 0 m"), "{size}");
+        }
+    }
+
+    #[test]
+    fn noise_that_is_negative_or_beyond_all_bounds_is_refused_by_name() {
+        for (value, name) in [(-0.1, "slip"), (1e308, "slip"), (f64::NAN, "slip")] {
+            let error = scene_error(|s| s.noise = Some(Noise { slip: value, ..Noise::default() }));
+            assert!(error.contains(&format!("noise: `{name}` ")), "{error}");
+        }
+        assert!(
+            scene_error(|s| s.noise = Some(Noise { sonar_miss: 1.5, ..Noise::default() })).contains("`sonar_miss`")
+        );
+    }
+
+    #[test]
+    fn a_scene_has_so_many_pieces_and_objects() {
+        let many = |s: &mut Scene| s.furniture = vec![s.furniture[0].clone(); 1000];
+        assert!(scene_error(many).contains("furniture: 1000 pieces of furniture are more than the 400"));
+        let many = |s: &mut Scene| s.objects = vec![s.objects[0].clone(); 1001];
+        assert!(scene_error(many).contains("objects: 1001 objects are more than the 1000"));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The solids that a piece of furniture in a scene is composed of, by its shape.
 
 use super::solid::Solid;
-use crate::catalogue::{Color, Shape, Size};
+use crate::catalogue::{Color, FurnitureShape, Size};
 use crate::geometry::{Polygon, Pose, Vec2, vec2};
 
 /// A bed's frame.
@@ -10,10 +10,10 @@ const WOOD: Color = [150, 105, 65];
 const BLACK: Color = [40, 40, 44];
 
 /// The outline of a piece on the floor.
-pub(super) fn footprint(shape: Shape, pose: Pose, size: Size) -> Polygon {
+pub(super) fn footprint(shape: FurnitureShape, pose: Pose, size: Size) -> Polygon {
     match shape {
-        Shape::RoundTable | Shape::Lamp => Polygon::ellipse(pose, size.length, size.width, 16),
-        Shape::HexagonTable => hexagon(pose, size),
+        FurnitureShape::RoundTable | FurnitureShape::Lamp => Polygon::ellipse(pose, size.length, size.width, 16),
+        FurnitureShape::HexagonTable => hexagon(pose, size),
         _ => Polygon::rectangle(pose, size.length, size.width),
     }
 }
@@ -27,21 +27,21 @@ fn hexagon(pose: Pose, size: Size) -> Polygon {
 }
 
 /// The solids of a piece of furniture.
-pub(super) fn solids(shape: Shape, pose: Pose, size: Size, color: Color) -> Vec<Solid> {
+pub(super) fn solids(shape: FurnitureShape, pose: Pose, size: Size, color: Color) -> Vec<Solid> {
     let h = size.height;
     match shape {
-        Shape::Table => [vec![top(shape, pose, size, color)], legs(pose, size, h - 0.04, color)].concat(),
-        Shape::RoundTable | Shape::HexagonTable => pedestal(shape, pose, size, color),
-        Shape::Cabinet => vec![Solid::new(footprint(shape, pose, size), 0.0, h, color)],
-        Shape::Stool => [vec![top(shape, pose, size, color)], legs(pose, size, h - 0.04, color)].concat(),
-        Shape::Chair => chair(pose, size, color),
-        Shape::Couch => couch(pose, size, color),
-        Shape::Bed => bed(pose, size, color),
-        Shape::Lamp => lamp(pose, size, color),
+        FurnitureShape::Table => [vec![top(shape, pose, size, color)], legs(pose, size, h - 0.04, color)].concat(),
+        FurnitureShape::RoundTable | FurnitureShape::HexagonTable => pedestal(shape, pose, size, color),
+        FurnitureShape::Cabinet => vec![Solid::new(footprint(shape, pose, size), 0.0, h, color)],
+        FurnitureShape::Stool => [vec![top(shape, pose, size, color)], legs(pose, size, h - 0.04, color)].concat(),
+        FurnitureShape::Chair => chair(pose, size, color),
+        FurnitureShape::Couch => couch(pose, size, color),
+        FurnitureShape::Bed => bed(pose, size, color),
+        FurnitureShape::Lamp => lamp(pose, size, color),
     }
 }
 
-fn top(shape: Shape, pose: Pose, size: Size, color: Color) -> Solid {
+fn top(shape: FurnitureShape, pose: Pose, size: Size, color: Color) -> Solid {
     Solid::new(footprint(shape, pose, size), size.height - 0.04, size.height, color)
 }
 
@@ -54,7 +54,7 @@ fn legs(pose: Pose, size: Size, height: f64, color: Color) -> Vec<Solid> {
         .to_vec()
 }
 
-fn pedestal(shape: Shape, pose: Pose, size: Size, color: Color) -> Vec<Solid> {
+fn pedestal(shape: FurnitureShape, pose: Pose, size: Size, color: Color) -> Vec<Solid> {
     let foot = Polygon::ellipse(pose, 0.5 * size.length, 0.5 * size.width, 12);
     let column = Polygon::ellipse(pose, 0.12, 0.12, 8);
     let shade = darker(color);
@@ -102,7 +102,7 @@ fn lamp(pose: Pose, size: Size, color: Color) -> Vec<Solid> {
     vec![
         Solid::new(Polygon::ellipse(pose, 0.28, 0.28, 12), 0.0, 0.03, BLACK),
         Solid::new(Polygon::ellipse(pose, 0.04, 0.04, 6), 0.03, h - 0.3, BLACK),
-        Solid::new(footprint(Shape::Lamp, pose, size), h - 0.3, h, color),
+        Solid::new(footprint(FurnitureShape::Lamp, pose, size), h - 0.3, h, color),
     ]
 }
 

@@ -35,6 +35,9 @@ impl Home {
     /// A shipped home by its name, or a scene file with the map it leads to; the apartment where none is named.
     ///
     /// `map` stands in for the room map of a scene file that leads to none.
+    ///
+    /// # Errors
+    /// When there is no such home, or a file cannot be read or describes a world that cannot be.
     pub fn load(map: Option<&Path>, world: Option<&Path>) -> Result<Self, WorldError> {
         let (map, scene) = match (map, world) {
             (Some(map), Some(scene)) => {
@@ -60,6 +63,8 @@ impl Home {
             noun: item.kind().noun.to_string(),
             corners: item.footprint().corners().to_vec(),
             height: item.size().height,
+            front: item.has_front().then_some(item.pose().heading),
+            holds: self.scene.objects_on(item).map(|o| (o.name.clone(), o.pose_on(item).position())).collect(),
         };
         self.scene.furniture.iter().map(piece).collect()
     }

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::check::check;
 use super::scene::Scene;
 use super::shipped::{SHIPPED_HOMES, ShippedHome};
+use crate::language::Lexicon;
 use crate::map::error::{WorldError, parse, read};
 use crate::map::{RoomMap, map_of_scene, shipped_home};
 
@@ -34,15 +35,28 @@ impl Scene {
     /// # Errors
     /// When the text is malformed, or tells of a scene that cannot be.
     pub fn from_json(text: &str, file: &str, map: &RoomMap) -> Result<Self, WorldError> {
-        let scene: Self = parse(text, file)?;
+        let mut scene: Self = parse(text, file)?;
+        scene.call_objects_by_lexicon();
         check(&scene, map, file)?;
         Ok(scene)
+    }
+}
+
+impl Scene {
+    /// Calls objects as sentences are read: "Phone" and "mobile" are both `cellphone`.
+    fn call_objects_by_lexicon(&mut self) {
+        let lexicon = Lexicon::embedded();
+        for object in &mut self.objects {
+            let words = object.name.trim().to_lowercase().replace(['_', '-'], " ");
+            object.name = lexicon.canonical(&words).map_or_else(|| words.replace(' ', "_"), str::to_string);
+        }
     }
 }
 
 /// Parses a scene file with what it refers to.
 fn parse_scene(text: &str, path: &Path) -> Result<Scene, WorldError> {
     let mut scene: Scene = parse(text, &path.display().to_string())?;
+    scene.call_objects_by_lexicon();
     for item in &mut scene.furniture {
         if let Some(mesh) = &mut item.mesh {
             mesh.load(path, &item.id)?;
@@ -136,6 +150,23 @@ mod tests {
             error.contains("map: no room map `castle`: looked for") && error.contains("castle.map.json"),
             "{error}"
         );
+    }
+
+    #[test]
+    fn an_object_is_called_as_sentences_are_read() {
+        let called = |name: &str| {
+            let text = include_str!("../../fixtures/apartment.scene.json");
+            let text = text.replacen("\"name\": \"mug\"", &format!("\"name\": \"{name}\""), 1);
+            Scene::from_json(&text, "s.json", &RoomMap::apartment())
+                .map(|s| s.objects.iter().map(|o| o.name.clone()).collect::<Vec<_>>())
+        };
+        assert!(called("Phone").expect("a scene").contains(&"cellphone".to_string()));
+        assert!(called("coffee cup").expect("a scene").contains(&"mug".to_string()));
+        assert!(called("Heirloom").expect("a scene").contains(&"heirloom".to_string()));
+        let error = called("headphnes").expect_err("misspelt").to_string();
+        assert!(error.contains("is no name that sentences are read by; did you mean `headphones`?"), "{error}");
+        let error = called("table").expect_err("furniture").to_string();
+        assert!(error.contains("`table` is furniture or a room"), "{error}");
     }
 
     #[test]

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// Wheel errors follow Borenstein & Feng (UMBmark, 1996): what is systematic –
 /// wheel diameters and track that are not as told – is drawn once for a trial,
 /// as for a robot whose odometry was calibrated some time ago; slip is drawn
-/// all the time. A scene may carry its own values.
+/// all the time. A P3DX answers after 50 to 100 ms, measured. A scene may carry its own values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Noise {
@@ -36,6 +36,10 @@ pub struct Noise {
     pub compass_bias_rad: f64,
     /// Each compass reading, radians.
     pub compass_rad: f64,
+    /// From a velocity that is asked for to the wheels that follow it, seconds.
+    pub dead_time_s: f64,
+    /// On top of that, up to so much, differently each time, seconds.
+    pub jitter_s: f64,
 }
 
 impl Default for Noise {
@@ -54,6 +58,8 @@ impl Default for Noise {
             sonar_crosstalk: 0.002,
             compass_bias_rad: 0.05,
             compass_rad: 0.035,
+            dead_time_s: 0.075,
+            jitter_s: 0.05,
         }
     }
 }
@@ -79,6 +85,8 @@ impl Noise {
             sonar_crosstalk: (self.sonar_crosstalk * factor).min(1.0),
             compass_bias_rad: self.compass_bias_rad * factor,
             compass_rad: self.compass_rad * factor,
+            dead_time_s: self.dead_time_s * factor,
+            jitter_s: self.jitter_s * factor,
         }
     }
 }

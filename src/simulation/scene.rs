@@ -247,6 +247,11 @@ impl Scene {
         (near(best) < 0.5).then_some(best)
     }
 
+    /// The objects that lie on a piece.
+    pub fn objects_on<'s>(&'s self, item: &'s Item) -> impl Iterator<Item = &'s PlacedObject> {
+        self.objects.iter().filter(|object| object.on == item.id)
+    }
+
     /// The pieces on which an object of that name lies.
     pub fn holders_of(&self, name: &str) -> Vec<&Item> {
         self.objects.iter().filter(|object| object.name == name).filter_map(|object| self.item(&object.on)).collect()

@@ -9,10 +9,10 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use super::Home;
-use super::arcos::{ServeAddress, Server, ServerSettings, serve};
+use super::arcos::{ServeAddress, Server, ServerSettings, serve_at};
 use super::base::{Obstacles, SimulatedBase};
 use super::camera::{Kinect, SolidScene};
+use super::{Home, TrialSettings};
 use crate::frame::{inverse, placed};
 use crate::geometry::Pose;
 use crate::recording::{FrameWriter, TimedFrame};
@@ -33,8 +33,8 @@ pub struct Served {
     pub camera: Option<PathBuf>,
     /// Where it truly is, JSON lines.
     pub truth: Option<PathBuf>,
-    /// Seed of the camera's faults.
-    pub seed: u64,
+    /// How imperfect it and its camera are.
+    pub how: TrialSettings,
 }
 
 /// Where the robot is: in truth, and by its odometry.
@@ -46,17 +46,24 @@ struct Whereabouts {
 
 impl Served {
     /// Serves the robot in `home` until `goes_on` says no; `tell` hears what happens.
+    ///
+    /// # Errors
+    /// When the address cannot be listened at, or the line fails.
     pub fn run(&self, home: &Home, mut goes_on: impl FnMut() -> bool, tell: impl Fn(&str)) -> io::Result<()> {
-        let base = SimulatedBase::new(Obstacles::new(&home.map, &home.scene), home.map.start);
+        let noise = self.how.noise_in(home.scene.noise.unwrap_or_default());
+        let obstacles = Obstacles::new(&home.map, &home.scene);
+        let base = SimulatedBase::with_noise(obstacles, home.map.start, noise, self.how.seed, 0);
+        // Nothing is written, filmed or said of a robot that cannot be served.
+        let place = self.address.listen()?;
         let mut server = Server::new(base, self.settings.clone());
         let whereabouts = Arc::new(Mutex::new(Whereabouts::default()));
         note(&whereabouts, &server);
         if let Some(path) = &self.camera {
-            film(path.clone(), home.clone(), Arc::clone(&whereabouts), self.seed)?;
+            film(path.clone(), home.clone(), Arc::clone(&whereabouts), self.how)?;
         }
         let mut truth = self.truth.as_deref().map(TruthLog::create).transpose()?;
-        tell("serving; ctrl-C ends it");
-        serve(&mut server, &self.address, |server| {
+        tell(&format!("serving at {}; ctrl-C ends it", self.address));
+        serve_at(&mut server, place, |server| {
             note(&whereabouts, server);
             server.take_log().iter().for_each(|text| tell(text));
             server.take_heard();
@@ -75,18 +82,18 @@ fn note(whereabouts: &Mutex<Whereabouts>, server: &Server) {
 }
 
 /// Films on a thread of its own, so that no picture makes a packet late. Pictures bear the time of day.
-fn film(path: PathBuf, home: Home, whereabouts: Arc<Mutex<Whereabouts>>, seed: u64) -> io::Result<()> {
+fn film(path: PathBuf, home: Home, whereabouts: Arc<Mutex<Whereabouts>>, how: TrialSettings) -> io::Result<()> {
     std::thread::Builder::new().name("camera".to_string()).spawn(move || {
         // A reader that goes away ends the film, not the robot.
-        let _ = roll(&path, &home, &whereabouts, seed);
+        let _ = roll(&path, &home, &whereabouts, how);
     })?;
     Ok(())
 }
 
-fn roll(path: &Path, home: &Home, whereabouts: &Mutex<Whereabouts>, seed: u64) -> Result<(), String> {
+fn roll(path: &Path, home: &Home, whereabouts: &Mutex<Whereabouts>, how: TrialSettings) -> Result<(), String> {
     let solids = SolidScene::new(&home.map, &home.scene);
-    let kinect = Kinect { camera: home.camera(), ..Kinect::default() };
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let kinect = Kinect { camera: home.camera(), ..how.kinect };
+    let mut rng = ChaCha8Rng::seed_from_u64(how.seed);
     let text = |error: &dyn std::fmt::Display| error.to_string();
     // A FIFO opens when its reader comes.
     let file = OpenOptions::new().write(true).create(true).truncate(true).open(path).map_err(|error| text(&error))?;

@@ -8,7 +8,7 @@ use crate::behavior::Options;
 
 /// Everything about a trial that is neither home nor plan.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Settings {
+pub struct TrialSettings {
     /// What the executive may do.
     pub options: Options,
     /// What the robot's eyes report.
@@ -17,6 +17,10 @@ pub struct Settings {
     pub kinect: Kinect,
     /// How imperfect the robot is.
     pub noise: NoiseLevel,
+    /// The base's dead time and its jitter, seconds, where they are not those of the noise.
+    pub dead_time_s: Option<f64>,
+    /// See there.
+    pub jitter_s: Option<f64>,
     /// Seed of everything random.
     pub seed: u64,
 }
@@ -56,6 +60,18 @@ impl NoiseLevel {
             Self::Off => Noise::off(),
             Self::Default => usual,
             Self::Double => usual.times(2.0),
+        }
+    }
+}
+
+impl TrialSettings {
+    /// The noise of the robot in a world that has `usual`.
+    pub fn noise_in(&self, usual: Noise) -> Noise {
+        let noise = self.noise.of(usual);
+        Noise {
+            dead_time_s: self.dead_time_s.unwrap_or(noise.dead_time_s),
+            jitter_s: self.jitter_s.unwrap_or(noise.jitter_s),
+            ..noise
         }
     }
 }

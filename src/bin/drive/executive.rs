@@ -5,6 +5,7 @@ use spatial_fetch::behavior::Options;
 use spatial_fetch::cli::{TIME_LIMIT_S, within};
 
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Executive")]
 pub struct Arguments {
     /// Room and object only, nearest table first: the yardstick for what the words are worth
@@ -39,6 +40,7 @@ impl Arguments {
             no_fallback: self.no_fallback,
             no_glance: self.no_glance,
             no_localization: self.no_localization,
+            describe: true,
             time_limit_s: self.time_limit,
         }
     }

@@ -1,16 +1,19 @@
 //! What a trial leaves beside its record, and who may look on.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::Args;
-use spatial_fetch::cli::{Failure, Reporter, within};
-use spatial_fetch::recording::Live;
-use spatial_fetch::recording::Outputs;
+use spatial_fetch::cli::{Common, Failure, Reporter, within};
+use spatial_fetch::evaluation::write_trials;
+use spatial_fetch::files::{Claims, refuse_existing};
+use spatial_fetch::map::RoomMap;
+use spatial_fetch::recording::{Live, Narration, Outputs, Stories, TruePiece};
 
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Outputs")]
 pub struct Arguments {
     /// Draw the way through the rooms; {id} stands for the record's id
@@ -22,6 +25,9 @@ pub struct Arguments {
     /// Log the trial; {id} stands for the record's id
     #[arg(long, value_name = "FILE.mcap")]
     record: Option<PathBuf>,
+    /// Write a page about all trials, DIR/index.html, with an animation of each
+    #[arg(long, value_name = "DIR", conflicts_with = "serve")]
+    report: Option<PathBuf>,
     /// Show the trials, one at a time and in real time, to Foxglove at this address (127.0.0.1:8765 where none is given; a build with the feature `live`)
     #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = "127.0.0.1:8765", conflicts_with = "serve")]
     live: Option<Address>,
@@ -35,11 +41,42 @@ impl Arguments {
         self.live.is_some()
     }
 
-    pub fn outputs(self, force: bool, options: String, reporter: &Reporter) -> Result<Outputs, Failure> {
+    /// Where a drawing is wanted.
+    pub fn plot(&self) -> Option<&Path> {
+        self.plot.as_deref()
+    }
+
+    /// Where the page about the trials is wanted; said before they are driven when it stands there already.
+    pub fn page(&self, force: bool) -> Result<Option<PathBuf>, Failure> {
+        let page = self.report.as_ref().map(|folder| folder.join("index.html"));
+        page.iter().try_for_each(|page| refuse_existing(page, force))?;
+        Ok(page)
+    }
+
+    pub fn outputs(self, common: &Common, options: String, reporter: &Reporter) -> Result<Outputs, Failure> {
         let live = self.live.as_ref().map(|address| address.serve(reporter)).transpose()?;
         let pace = live.is_some().then_some(self.live_speed);
-        Ok(Outputs { plot: self.plot, picture: self.picture, record: self.record, live, pace, force, options })
+        let narrator = reporter.clone();
+        let told = common.verbose > 0 && !common.quiet;
+        let narration =
+            told.then(|| Narration { tell: Arc::new(move |text| narrator.tell(text)), figures: common.verbose > 1 });
+        let stories = self.report.as_ref().map(|_| Arc::default());
+        let (plot, picture, record, force) = (self.plot, self.picture, self.record, common.force);
+        let claims = Claims::default();
+        Ok(Outputs { plot, picture, record, live, pace, force, claims, options, narration, stories })
     }
+}
+
+/// Writes the page about the trials, where one is wanted.
+pub fn write_page(
+    page: Option<PathBuf>,
+    stories: Option<Arc<Stories>>,
+    map: &RoomMap,
+    truth: &[TruePiece],
+    force: bool,
+) -> Result<(), Failure> {
+    let (Some(page), Some(stories)) = (page, stories) else { return Ok(()) };
+    Ok(write_trials(&page, stories.take(), map, truth, force)?)
 }
 
 /// Where Foxglove is served.

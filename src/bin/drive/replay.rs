@@ -19,7 +19,9 @@ impl Arguments {
         TrialOptions {
             world: home(&self.home.world),
             map: home(&self.home.map),
-            noise: self.noise,
+            noise: self.noise.unwrap_or_default(),
+            dead_time: self.dead_time,
+            jitter: self.jitter,
             perception: self.eyes.perception,
             depth_noise: self.eyes.depth_noise,
             depth_loss: self.eyes.depth_loss,
@@ -37,7 +39,8 @@ impl Arguments {
 
     fn take(&mut self, options: TrialOptions) {
         (self.home.world, self.home.map) = (options.world.map(PathBuf::from), options.map.map(PathBuf::from));
-        (self.noise, self.eyes.perception) = (options.noise, options.perception);
+        (self.noise, self.eyes.perception) = (Some(options.noise), options.perception);
+        (self.dead_time, self.jitter) = (options.dead_time, options.jitter);
         self.eyes.depth_noise = options.depth_noise;
         self.eyes.depth_loss = options.depth_loss;
         self.eyes.light = options.light;

@@ -1,23 +1,25 @@
 //! Which robot is driven, how carefully, and through which camera; or served to others.
 
 use std::path::PathBuf;
+use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 use spatial_fetch::behavior::Options;
-use spatial_fetch::cli::{Exit, Failure, Reporter, on_interrupt, within};
+use spatial_fetch::cli::{Exit, Failure, Pause, Reporter, on_interrupt, on_suspend, within};
 use spatial_fetch::field::{NoEyes, RealDriver, StreamEyes, Tell};
 use spatial_fetch::perception::Eyes;
 use spatial_fetch::recording::Outputs;
-use spatial_fetch::robot::RealBase;
-use spatial_fetch::robot::arcos::client::{ArcosBase, Settings};
+use spatial_fetch::robot::arcos::client::{ArcosBase, ArcosSettings};
 use spatial_fetch::robot::arcos::line::{Address, Line};
 use spatial_fetch::robot::arcos::parameters::Parameters;
+use spatial_fetch::robot::arcos::standby::{self, GuardedLine};
 use spatial_fetch::robot::p3dx::SonarArray;
+use spatial_fetch::robot::{RealBase, Remote};
 use spatial_fetch::simulation::arcos::DryLine;
 use spatial_fetch::simulation::arcos::{ServeAddress, ServerSettings};
-use spatial_fetch::simulation::{Home, Served};
+use spatial_fetch::simulation::{self, Home, Served};
 
 /// The models whose scales are known.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -29,6 +31,7 @@ enum Model {
 }
 
 #[derive(Args)]
+#[group(skip)]
 #[command(next_help_heading = "Robot")]
 pub struct Arguments {
     /// sim, `serial:/dev/ttyUSB0[@38400]` or tcp:HOST:8101
@@ -84,11 +87,11 @@ impl Arguments {
         self.robot != Address::Sim || self.dry_run
     }
 
-    fn settings(&self) -> Settings {
-        Settings {
+    fn settings(&self) -> ArcosSettings {
+        ArcosSettings {
             speed: self.max_speed,
             acceleration: self.max_acceleration,
-            braking: self.max_acceleration.max(Settings::default().braking),
+            braking: self.max_acceleration.max(ArcosSettings::default().braking),
             deadline: Duration::from_millis(self.deadline),
             resume: self.resume,
             reconnect: self.reconnect.map(Duration::from_secs),
@@ -97,21 +100,30 @@ impl Arguments {
                 Model::P3dx => Parameters::P3DX,
             }),
             sonars: self.sonars,
-            ..Settings::default()
+            ..ArcosSettings::default()
         }
     }
 
     /// Serves until interrupted.
-    pub fn run_served(self, home: &Home, reporter: &Reporter, seed: u64) -> Result<Exit, Failure> {
+    pub fn run_served(
+        self,
+        home: &Home,
+        reporter: &Reporter,
+        how: simulation::TrialSettings,
+        force: bool,
+    ) -> Result<Exit, Failure> {
         let Some(address) = self.serve else { return Ok(Exit::Done) };
         let settings = ServerSettings { watchdog: Duration::from_millis(self.watchdog), ..ServerSettings::default() };
-        let served = Served { address, settings, camera: self.camera_out, truth: self.truth_out, seed };
+        for path in [&self.camera_out, &self.truth_out].into_iter().flatten() {
+            spatial_fetch::files::refuse_existing(path, force)?;
+        }
+        let served = Served { address: address.clone(), settings, camera: self.camera_out, truth: self.truth_out, how };
         let stop = spatial_fetch::simulation::served_until_interrupted();
         let closing = stop.clone();
         on_interrupt(move || closing.stop());
         let run = served.run(home, || stop.goes_on(), |text| reporter.remark(text));
         stop.ended();
-        run.map(|()| Exit::Done).map_err(|error| Failure::Failed(format!("--serve: {error}")))
+        run.map(|()| Exit::Done).map_err(|error| Failure::Failed(format!("--serve {address}: {error}")))
     }
 
     /// Connects to the robot.
@@ -123,13 +135,15 @@ impl Arguments {
         reporter: Reporter,
     ) -> Result<RealDriver, Failure> {
         let start = map.start;
-        let base = ArcosBase::connect(self.line()?, self.settings(), start);
+        let base = ArcosBase::connect(self.line(&reporter)?, self.settings(), start);
         let base: Box<dyn RealBase> = Box::new(base.map_err(|error| Failure::Failed(error.to_string()))?);
         let tell: Tell = Arc::new(move |text: &str| reporter.remark(text));
         let eyes = self.eyes(&map, base.as_ref(), &tell)?;
+        let remote = base.remote();
         let driver = RealDriver::new(map, options, outputs, base, eyes, tell);
         let interrupter = driver.interrupter();
         on_interrupt(move || interrupter.stop());
+        on_suspend(Arc::new(Suspended(remote)));
         Ok(driver)
     }
 
@@ -156,14 +170,44 @@ impl Arguments {
         Ok(Box::new(eyes))
     }
 
-    fn line(&self) -> Result<Box<dyn Line + Send>, Failure> {
+    fn line(&self, reporter: &Reporter) -> Result<Box<dyn Line + Send>, Failure> {
         if self.dry_run {
             return Ok(Box::new(DryLine::default()));
         }
-        match self.robot.open() {
-            Ok(Some(line)) => Ok(line),
-            Ok(None) => Err(Failure::Usage("the simulated robot has no line".to_string())),
-            Err(error) => Err(Failure::Failed(format!("{}: {error}", self.robot))),
+        let failed = |error: std::io::Error| Failure::Failed(format!("{}: {error}", self.robot));
+        let none = || Failure::Usage("the simulated robot has no line".to_string());
+        let line = self.robot.open().map_err(failed)?.ok_or_else(none)?;
+        let program = std::env::current_exe().map_err(failed)?;
+        match GuardedLine::new(line, program.as_os_str()) {
+            Ok(line) => Ok(Box::new(line)),
+            Err(error) => {
+                let left = "if this process is killed, only the robot's own watchdog stops it";
+                reporter.remark(&format!("no second process to stand by ({error}): {left}"));
+                self.robot.open().map_err(failed)?.ok_or_else(none)
+            }
         }
     }
+}
+
+/// The robot, in a process that is suspended.
+struct Suspended(Arc<dyn Remote>);
+
+impl Pause for Suspended {
+    fn pause(&self) {
+        self.0.pause();
+    }
+
+    fn go_on(&self) {
+        self.0.go_on();
+    }
+}
+
+/// Whether this is the second process of a `drive` that drives a real robot.
+pub fn stands_by() -> bool {
+    std::env::args_os().nth(1).is_some_and(|first| first == standby::ARGUMENT)
+}
+
+/// Its whole life.
+pub fn stand_by() -> ExitCode {
+    if standby::stand_by().is_ok() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

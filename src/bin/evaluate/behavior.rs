@@ -6,7 +6,7 @@ use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, HomeArguments};
 use spatial_fetch::evaluation::behavior::{Selection, Source, Study, behavior_tables, conditions, instructions};
 use spatial_fetch::simulation::Scene;
-use spatial_fetch::simulation::{Home, NoiseLevel, Settings};
+use spatial_fetch::simulation::{Home, NoiseLevel, TrialSettings};
 
 use crate::{Reads, Subcommand};
 
@@ -54,7 +54,7 @@ impl Subcommand for Arguments {
             instructions,
             conditions: conditions(&homes, self.ablations),
             placements: homes.len(),
-            settings: Settings { noise: self.noise, seed, ..self.eyes.settings() },
+            settings: TrialSettings { noise: self.noise, seed, ..self.eyes.settings() },
             seeds: self.seeds,
             explained: self.explain,
         };

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, HomeArguments};
 use spatial_fetch::evaluation::{Measure, Wanted, blame, blame_text};
-use spatial_fetch::simulation::{Perception, Settings};
+use spatial_fetch::simulation::{Perception, TrialSettings};
 
 use crate::{Reads, Subcommand};
 
@@ -36,7 +36,7 @@ impl Subcommand for Arguments {
     fn run(&self, common: &Common) -> Result<Exit, Failure> {
         let gold = cli::load_gold_with(self.gold.as_deref(), self.meanings.as_deref())?;
         let home = self.home.load()?;
-        let settings = Settings { perception: self.perception, seed: common.seed, ..Settings::default() };
+        let settings = TrialSettings { perception: self.perception, seed: common.seed, ..TrialSettings::default() };
         let blames = cli::on_threads(common.jobs, || blame(&gold, &home, &settings, self.measure, self.wanted))?;
         cli::write_report(common, &blames, || blame_text(&blames))?;
         Ok(Exit::Done)

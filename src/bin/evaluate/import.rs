@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use spatial_fetch::cli::{self, Common, Exit, Failure};
+use spatial_fetch::cli::{self, Common, Exit, Failure, Reporter};
 use spatial_fetch::evaluation::import;
 
 use crate::Subcommand;
@@ -32,9 +32,8 @@ impl Subcommand for Arguments {
         }
         sink.finish()?;
         let lossless = imported.remarks.iter().all(|remark| remark.contains("slip of the numbering"));
-        if !common.quiet {
-            imported.remarks.iter().for_each(|remark| eprintln!("evaluate: {remark}"));
-        }
+        let reporter = Reporter::new("evaluate", common);
+        imported.remarks.iter().for_each(|remark| reporter.remark(remark));
         Ok(if lossless { Exit::Done } else { Exit::Lost })
     }
 }

@@ -8,7 +8,7 @@ use spatial_fetch::evaluation::{Experiments, Paper, paper_csv, paper_text, write
 use spatial_fetch::files::refuse_existing;
 use spatial_fetch::map::RoomMap;
 use spatial_fetch::simulation::Scene;
-use spatial_fetch::simulation::{Home, Perception, Settings};
+use spatial_fetch::simulation::{Home, Perception, TrialSettings};
 
 use crate::{Reads, Subcommand};
 
@@ -42,7 +42,7 @@ impl Subcommand for Arguments {
         let corpus = self.gold.as_ref().map_or("own templates".to_string(), |path| path.display().to_string());
         let homes =
             [Scene::apartment(), Scene::apartment_modified()].map(|scene| Home::new(RoomMap::apartment(), scene));
-        let settings = Settings { perception: self.perception, seed: common.seed, ..Settings::default() };
+        let settings = TrialSettings { perception: self.perception, seed: common.seed, ..TrialSettings::default() };
         let experiments = Experiments { corpus, gold: &gold, homes: &homes, settings, seeds: self.seeds };
         let result = cli::counted_on_threads(common, experiments.trials(), |done| experiments.run(done))?;
         if let Some(folder) = &self.report {

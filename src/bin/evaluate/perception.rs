@@ -31,7 +31,7 @@ impl Subcommand for Arguments {
         let title = format!("{} frames of {}", frames.len(), self.gold.display());
         let text = match common.format {
             Format::Text => furniture_tables(&title, &scores),
-            Format::Json => serde_json::to_string(&scores).map_err(|e| Failure::Failed(e.to_string()))?,
+            Format::Json | Format::Csv => serde_json::to_string(&scores).map_err(|e| Failure::Failed(e.to_string()))?,
         };
         let sink = cli::open_output(common)?;
         sink.write(format!("{text}\n").as_bytes())?;

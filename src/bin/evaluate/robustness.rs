@@ -9,7 +9,7 @@ use spatial_fetch::evaluation::robustness::{
     Experiment, Robustness, gold_homes, homes, own_homes, placements, read_gold_lines, read_texts,
 };
 use spatial_fetch::simulation::arrange::Relations;
-use spatial_fetch::simulation::{Home, Settings};
+use spatial_fetch::simulation::{Home, TrialSettings};
 
 use crate::{Reads, Subcommand};
 
@@ -59,7 +59,7 @@ impl Subcommand for Arguments {
 impl Arguments {
     fn measure(&self, common: &Common, done: &(dyn Fn() + Sync)) -> Result<Robustness, Failure> {
         let options = Options { no_glance: self.no_glance, ..Options::default() };
-        let settings = Settings { options, seed: common.seed, ..self.eyes.settings() };
+        let settings = TrialSettings { options, seed: common.seed, ..self.eyes.settings() };
         let experiment = Experiment { settings, seeds: self.seeds, done };
         let corpus = cli::load_gold(self.corpus.as_deref())?;
         let home = Home::load(None, self.world.as_deref()).map_err(failed)?;

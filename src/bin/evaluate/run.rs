@@ -6,7 +6,7 @@ use clap::Args;
 use spatial_fetch::behavior::Options;
 use spatial_fetch::cli::{self, Common, Exit, EyeArguments, Failure, HomeArguments, Table};
 use spatial_fetch::evaluation::{run_corpus, score};
-use spatial_fetch::simulation::Settings;
+use spatial_fetch::simulation::TrialSettings;
 
 use crate::{Reads, Subcommand};
 
@@ -31,7 +31,7 @@ impl Subcommand for Arguments {
         let gold = cli::load_gold(self.gold.as_deref())?;
         let home = self.home.load()?;
         let options = Options { blind: self.blind, ..Options::default() };
-        let settings = Settings { options, seed: common.seed, ..self.eyes.settings() };
+        let settings = TrialSettings { options, seed: common.seed, ..self.eyes.settings() };
         let lines = run_corpus(&gold, &home, &settings);
         let scores = score(&gold, &lines).map_err(Failure::Failed)?;
         let title = format!("{} descriptions, {} records", gold.len(), lines.len());

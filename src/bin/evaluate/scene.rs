@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure};
+use spatial_fetch::simulation::Dice;
 use spatial_fetch::simulation::Home;
-use spatial_fetch::simulation::arrange::{Dice, Relations, new_home, rearranged};
+use spatial_fetch::simulation::arrange::{Relations, new_home, rearranged};
 use spatial_fetch::simulation::world_json;
 
 use crate::{Reads, Subcommand};

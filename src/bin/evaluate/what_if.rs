@@ -3,7 +3,7 @@
 use clap::Args;
 use spatial_fetch::cli::{self, Common, Exit, Failure, HomeArguments};
 use spatial_fetch::evaluation::{what_if, what_if_text};
-use spatial_fetch::simulation::Settings;
+use spatial_fetch::simulation::TrialSettings;
 
 use crate::{Reads, Subcommand};
 
@@ -37,7 +37,7 @@ impl Subcommand for Arguments {
             let ids: Vec<&str> = home.scene.furniture.iter().map(|item| item.id.as_str()).collect();
             return Err(Failure::Usage(format!("--piece: no {unknown:?} here; there are {}", ids.join(", "))));
         }
-        let settings = Settings { seed: common.seed, ..Settings::default() };
+        let settings = TrialSettings { seed: common.seed, ..TrialSettings::default() };
         let found = cli::on_threads(common.jobs, || what_if(&id, &text, &home, &settings, &self.piece))?;
         cli::write_report(common, &found, || what_if_text(&found))?;
         Ok(Exit::Done)

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use spatial_fetch::cli::{
     self, Common, Diagnostic, Exit, Failure, Format, FrameInput, FrameItem, Line, Reporter, Source, open_output,
 };
+use spatial_fetch::escape::for_terminal;
 use spatial_fetch::perception::{Perceiver, SceneView, Scenes, scene_of};
 use spatial_fetch::record::{Record, StageError};
 
@@ -20,8 +21,10 @@ pub fn run(common: &Common, input: FrameInput, perceiver: &Perceiver) -> Result<
     let sink = open_output(common)?;
     for scene in gathering.scenes.fused() {
         let text = match common.format {
-            Format::Json => serde_json::to_string(&scene).map_err(|error| Failure::Failed(error.to_string()))?,
-            Format::Text => scene.text(),
+            Format::Json | Format::Csv => {
+                serde_json::to_string(&scene).map_err(|error| Failure::Failed(error.to_string()))?
+            }
+            Format::Text => for_terminal(&scene.text()).into_owned(),
         };
         sink.write(format!("{text}\n").as_bytes())?;
     }

@@ -5,9 +5,12 @@ mod fuse;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
+use std::time::Duration;
 
 use clap::Parser;
-use spatial_fetch::cli::{self, Common, Exit, Failure, FrameInput, FromLog, Intake, Program};
+use spatial_fetch::cli::{self, Common, Exit, Failure, FrameInput, FromLog, Intake, Program, Reporter, within};
+use spatial_fetch::files::Claims;
+use spatial_fetch::limits::DETECTOR_SECONDS;
 use spatial_fetch::map::load_map;
 use spatial_fetch::perception::{
     CAMERA_HEIGHTS_M, CAMERA_TILTS_DEG, Detector, ExternalDetector, Model, Perceiver, Told,
@@ -21,7 +24,7 @@ use spatial_fetch::record::Detection;
 #[command(
     name = "perceive",
     version,
-    after_help = "Example:\n  perceive --format text --overlay seen fixtures/frames/frames.jsonl"
+    after_help = "Example:\n  evaluate frames --count 10 --into frames\n  perceive --format text --overlay seen frames/index.jsonl"
 )]
 struct Arguments {
     /// Where relative paths of pictures begin [default: the folder of the first FILE]
@@ -54,6 +57,9 @@ struct Arguments {
     /// Leave all detecting to the command
     #[arg(long, requires = "detector")]
     detector_only: bool,
+    /// Seconds that the command may take for one frame
+    #[arg(long, value_name = "SECONDS", requires = "detector", default_value_t = DETECTOR_SECONDS.value as f64, value_parser = within(0.1..=86_400.0))]
+    detector_patience: f64,
     #[command(flatten)]
     log: FromLog,
     #[command(flatten)]
@@ -68,7 +74,13 @@ impl Arguments {
     fn perceiver(&self) -> Result<Perceiver, Failure> {
         let failed = |error: &dyn std::fmt::Display| Failure::Failed(error.to_string());
         let beside = self.common.files.first().and_then(|file| file.parent().map(PathBuf::from));
-        let external = self.detector.as_deref().map(ExternalDetector::start).transpose().map_err(|e| failed(&e))?;
+        let patience = Some(Duration::from_secs_f64(self.detector_patience));
+        let external = self.detector.as_deref().map(|command| ExternalDetector::start(command, patience));
+        let external = external.transpose().map_err(|error| failed(&error))?;
+        if let Some(external) = &external {
+            let ender = external.ender();
+            cli::on_interrupt(move || ender.end());
+        }
         Ok(Perceiver {
             folder: self.folder.clone().or(beside).unwrap_or_default(),
             detector: self.model.as_deref().map_or_else(|| Ok(Detector::default()), load_detector)?,
@@ -79,6 +91,7 @@ impl Arguments {
             least_confidence: self.least_confidence,
             overlay: self.overlay.clone(),
             force: self.common.force,
+            claims: Claims::default(),
         })
     }
 }
@@ -103,7 +116,7 @@ impl Program for Arguments {
     }
     fn run(self) -> Result<Exit, Failure> {
         let (perceiver, common) = (self.perceiver()?, &self.common);
-        match FrameInput::open(&common.files, &self.log, perceiver.told)? {
+        let exit = match FrameInput::open(&common.files, &self.log, perceiver.told, common.keep_going)? {
             input if self.fuse => fuse::run(common, input, &perceiver),
             FrameInput::Lines(mut lines) => cli::run_filter_on(Self::NAME, common, &mut lines, INTAKE, &perceiver),
             FrameInput::Logs(mut logs) => {
@@ -111,7 +124,10 @@ impl Program for Arguments {
                     perceiver.see(&timed.frame, timed.pose_from, record)
                 })
             }
-        }
+        }?;
+        let Some(Err(error)) = perceiver.external.as_deref().map(ExternalDetector::finish) else { return Ok(exit) };
+        Reporter::new(Self::NAME, common).fatal(&error.to_string());
+        Ok(Exit::Lost)
     }
 }
 

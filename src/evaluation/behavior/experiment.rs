@@ -6,7 +6,7 @@ use super::Instruction;
 use crate::behavior::{Options, Silent};
 use crate::geometry::Pose;
 use crate::record::{Outcome, Trial};
-use crate::simulation::{Home, Settings, run, stream_of};
+use crate::simulation::{Home, TrialSettings, run, stream_of};
 
 /// One column of figures: a home, and what the executive may do in it.
 #[derive(Clone, Debug)]
@@ -50,12 +50,12 @@ pub struct Score {
 pub fn drive_all(
     instructions: &[Instruction],
     condition: &Condition,
-    settings: &Settings,
+    settings: &TrialSettings,
     seeds: u64,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Vec<Score>> {
     let trial = |instruction: &Instruction, seed: u64| {
-        let settings = Settings { options: condition.options, seed: settings.seed + seed, ..*settings };
+        let settings = TrialSettings { options: condition.options, seed: settings.seed + seed, ..*settings };
         let stream = stream_of(&instruction.id);
         let ran = run(condition.home, &instruction.plan, &settings, stream, &mut Silent);
         done();

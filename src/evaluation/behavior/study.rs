@@ -2,7 +2,7 @@
 
 use super::{BehaviorReport, Condition, ConditionReport, Fall, Instruction, drive_all, explain};
 use crate::behavior::Options;
-use crate::simulation::{Home, Settings};
+use crate::simulation::{Home, TrialSettings};
 
 /// What is driven.
 #[derive(Clone, Debug)]
@@ -14,7 +14,7 @@ pub struct Study<'h> {
     /// How many of the conditions are placements with the whole executive.
     pub placements: usize,
     /// Eyes, noise, first seed.
-    pub settings: Settings,
+    pub settings: TrialSettings,
     /// Trials of each instruction.
     pub seeds: u64,
     /// Say of each instruction that went wrong whether its words allow it.

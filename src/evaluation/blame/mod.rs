@@ -19,7 +19,7 @@ use serde::Serialize;
 use super::{Gold, Measure, Pipeline};
 use crate::behavior::Run;
 use crate::record::{Grounding, Plan};
-use crate::simulation::{Home, Perception, Settings};
+use crate::simulation::{Home, Perception, TrialSettings};
 
 /// A stage that can be replaced by gold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
@@ -86,7 +86,7 @@ pub enum Wanted {
 }
 
 /// Runs a corpus, and every failure again with the gold of one stage at a time.
-pub fn blame(gold: &[Gold], home: &Home, settings: &Settings, measure: Measure, by: Wanted) -> Blames {
+pub fn blame(gold: &[Gold], home: &Home, settings: &TrialSettings, measure: Measure, by: Wanted) -> Blames {
     let judged: Vec<&Gold> = gold.iter().filter(|gold| gold.grounding.is_some()).collect();
     let failures: Vec<Option<Blame>> = judged
         .par_iter()
@@ -152,7 +152,7 @@ impl<'a, 'h> Trial<'a, 'h> {
             stages.push(Stage::Plan);
         }
         if self.pipeline.settings.perception != Perception::Truth {
-            let settings = Settings { perception: Perception::Truth, ..self.pipeline.settings };
+            let settings = TrialSettings { perception: Perception::Truth, ..self.pipeline.settings };
             let run = Pipeline::new(self.pipeline.home, settings).drive(&self.gold.id, plan);
             if self.good(&run) {
                 stages.push(Stage::Perceive);
@@ -207,7 +207,7 @@ mod tests {
             format!(r#"{{"id":"1","text":"{text}","tree":"{tree}","grounding":{grounding},"expect":["{expect}"]}}"#);
         let gold = read_gold(&line, "gold.jsonl").expect("gold");
         let home = Home::load(None, None).expect("the apartment");
-        blame(&gold, &home, &Settings::default(), Measure::RightFirst, Wanted::Object)
+        blame(&gold, &home, &TrialSettings::default(), Measure::RightFirst, Wanted::Object)
     }
 
     #[test]

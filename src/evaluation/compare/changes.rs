@@ -31,6 +31,9 @@ const NOISE: [&str; 18] = [
 ];
 
 /// All values that differ between two records of one id.
+///
+/// # Errors
+/// When a key that a stage adds does not hold what the stage writes.
 pub fn changes_between(id: &str, a: &Record, b: &Record, everything: bool) -> Result<Vec<Change>, FieldError> {
     let mut walk = Walk { id, everything, changes: Vec::new() };
     for key in KEYS {

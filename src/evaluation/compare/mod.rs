@@ -100,6 +100,9 @@ struct Run<'l> {
 pub type NamedLines<'l> = (&'l str, &'l [String]);
 
 /// Compares two runs by the keys the stages add. `everything` counts measurements and reasons as changes as well.
+///
+/// # Errors
+/// When a line is no record, or a record has no id or stands twice.
 pub fn compare(
     first: NamedLines,
     second: NamedLines,

@@ -64,6 +64,9 @@ pub struct GroundingScores {
 }
 
 /// Runs the experiments on the descriptions of `gold` that are labelled.
+///
+/// # Errors
+/// When a labelled description has no text.
 pub fn evaluate_grounding(corpus: &str, gold: &[Gold], experiment: &Experiment) -> Result<GroundingScores, String> {
     let gold: Vec<&Gold> = gold.iter().filter(|gold| gold.is_labelled()).collect();
     if let Some(bare) = gold.iter().find(|gold| gold.text.is_empty()) {

@@ -1,6 +1,7 @@
 //! A tree as text: `(S (ORMTP go/VB (ORMRP left/DIR)) and/CC)`.
 
 use super::super::treebank::{TokenChunk, TokenEntry, tag_of};
+use crate::limits::TREE_DEPTH;
 
 /// A tree as it is read word by word.
 #[derive(Default)]
@@ -8,24 +9,29 @@ pub(super) struct TreeBuilder {
     entry: TokenEntry,
     /// Chunks that are open: their index, none for brackets that are no chunk.
     open: Vec<Option<usize>>,
+    /// How many of them are chunks.
+    depth: usize,
 }
 
 impl TreeBuilder {
     /// Opens a bracket; one whose name is no chunk tag only groups words.
-    pub fn open(&mut self, name: &str) {
+    pub fn open(&mut self, name: &str) -> Result<(), String> {
+        TREE_DEPTH.check(self.open.len() + 1)?;
         let index = tag_of(name).map(|tag| {
-            let at = self.entry.tokens.len();
-            let depth = self.open.iter().flatten().count();
+            let (at, depth) = (self.entry.tokens.len(), self.depth);
+            self.depth += 1;
             self.entry.chunks.push(TokenChunk { tag: tag.name().to_string(), start: at, end: at, depth });
             self.entry.chunks.len() - 1
         });
         self.open.push(index);
+        Ok(())
     }
 
     /// Closes the last bracket; false when none is open.
     pub fn close(&mut self) -> bool {
         let Some(index) = self.open.pop() else { return false };
         if let Some(index) = index {
+            self.depth -= 1;
             self.entry.chunks[index].end = self.entry.tokens.len();
         }
         true
@@ -42,12 +48,15 @@ impl TreeBuilder {
     }
 
     /// Adds text: words, and brackets where there are any.
+    ///
+    /// # Errors
+    /// When a bracket closes that was not opened, or a tag is none.
     pub fn text(&mut self, text: &str) -> Result<(), String> {
         let spaced = text.replace('(', " ( ").replace(')', " ) ");
         let mut pieces = spaced.split_whitespace();
         while let Some(piece) = pieces.next() {
             match piece {
-                "(" => self.open(pieces.next().ok_or("a bracket opens at the end")?),
+                "(" => self.open(pieces.next().ok_or("a bracket opens at the end")?)?,
                 ")" if !self.close() => return Err("a bracket closes that was not opened".to_string()),
                 ")" => {}
                 word => self.word(word, None),
@@ -57,6 +66,9 @@ impl TreeBuilder {
     }
 
     /// The tree, without chunks that hold no word.
+    ///
+    /// # Errors
+    /// When a bracket is left open.
     pub fn finish(mut self) -> Result<TokenEntry, String> {
         if !self.open.is_empty() {
             return Err("a bracket is not closed".to_string());

@@ -15,12 +15,14 @@
 //! slips, and say so: the tree beside it that fits is taken.
 
 mod bracketed;
+mod package;
 mod sheet;
 mod treebank_xml;
 
 use std::path::Path;
 
 use super::treebank::{TokenEntry, TokenGrounding};
+use crate::limits::IMPORT_FILE_BYTES;
 use sheet::SheetRow;
 
 /// Descriptions in this project's format, and what was odd about the files.
@@ -43,9 +45,13 @@ pub struct ImportError {
 }
 
 /// Reads a treebank and, where there is one, the sheet of groundings; ids are `prefix-0001` and so on.
+///
+/// # Errors
+/// When a file cannot be read, or is no treebank or no sheet of groundings, with the place.
 pub fn import(treebank: &Path, groundings: Option<&Path>, prefix: &str) -> Result<Imported, ImportError> {
     let file = treebank.display().to_string();
-    let xml = std::fs::read_to_string(treebank)
+    let xml = IMPORT_FILE_BYTES
+        .read_text(treebank)
         .map_err(|error| ImportError { file: file.clone(), message: error.to_string() })?;
     let mut entries = treebank_xml::read(&xml).map_err(|message| ImportError { file: file.clone(), message })?;
     if entries.is_empty() {

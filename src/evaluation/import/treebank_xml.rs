@@ -6,6 +6,7 @@ use quick_xml::events::Event;
 
 use super::super::treebank::{TokenEntry, tag_of};
 use super::bracketed::TreeBuilder;
+use crate::limits::TREE_DEPTH;
 
 /// The item that is being read.
 struct Item {
@@ -22,8 +23,11 @@ pub(super) fn read(xml: &str) -> Result<Vec<TokenEntry>, String> {
     let mut reader = Reader::from_str(xml);
     let mut item: Option<Item> = None;
     let mut entries = Vec::new();
+    let (mut line, mut counted) = (1, 0);
     loop {
-        let line = 1 + xml.get(..reader.buffer_position() as usize).unwrap_or(xml).matches('\n').count();
+        let at = (reader.buffer_position() as usize).clamp(counted, xml.len());
+        line += xml.as_bytes()[counted..at].iter().filter(|byte| **byte == b'\n').count();
+        counted = at;
         let wrong = |message: String| format!("line {line}: {message}");
         match reader.read_event().map_err(|error| wrong(format!("not well-formed XML ({error})")))? {
             Event::Start(start) => match &mut item {
@@ -68,8 +72,9 @@ impl Item {
 
     fn open(&mut self, name: &str) -> Result<(), String> {
         self.take_text()?;
+        TREE_DEPTH.check(self.elements.len() + 1)?;
         if tag_of(name).is_some() {
-            self.tree.open(name);
+            self.tree.open(name)?;
         }
         self.elements.push(name.to_string());
         Ok(())
@@ -111,6 +116,20 @@ mod tests {
             |entry: &TokenEntry| entry.chunks.iter().map(|c| (c.tag.clone(), c.start, c.end)).collect::<Vec<_>>();
         assert_eq!(spans(&a), spans(&b));
         assert_eq!(b.tokens[0].1, "PRP");
+    }
+
+    #[test]
+    fn a_tree_that_nests_without_end_is_refused() {
+        let nested = format!("<T><S>{}", "<OBTP>".repeat(100_000));
+        assert!(read(&nested).expect_err("deep").contains("levels are more than the 1000"));
+        let brackets = format!("<T><S>{}</S></T>", "(OBTP ".repeat(100_000));
+        assert!(read(&brackets).expect_err("deep").contains("levels are more than the 1000"));
+    }
+
+    #[test]
+    fn lines_are_counted_once_however_many_there_are() {
+        let many = format!("<T>{}<S></T>", "<S>a</S>\n".repeat(200_000));
+        assert!(read(&many).expect_err("not well-formed").starts_with("line 200001"));
     }
 
     #[test]

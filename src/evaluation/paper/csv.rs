@@ -1,6 +1,7 @@
 //! The tables as comma-separated values, one figure a line.
 
 use super::{Paper, Source};
+use crate::record::csv_line;
 
 /// A heading and a line for each figure of each table.
 pub fn paper_csv(paper: &Paper) -> String {
@@ -15,15 +16,10 @@ pub fn paper_csv(paper: &Paper) -> String {
                     format!("{},{},{:.4},{:.4}", rate.hit, rate.of, low, high)
                 });
                 let spl = row.spl.map_or(String::new(), |spl| spl.value().to_string());
-                let head = [name, source, &row.name, &row.measure, column.heading()].map(field).join(",");
+                let head = csv_line([name, source, &row.name, &row.measure, column.heading()]);
                 lines.push(format!("{head},{:.2},{count},{spl}", cell.percent.0));
             }
         }
     }
     lines.join("\n")
-}
-
-/// Quoted where it has to be (RFC 4180).
-fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_string() }
 }

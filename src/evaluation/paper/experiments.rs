@@ -17,7 +17,7 @@ use crate::grounding::paper::{Model, Options as ModelOptions};
 use crate::grounding::{Grounder, Method};
 use crate::language::chunk_text;
 use crate::record::Record;
-use crate::simulation::{Home, Settings};
+use crate::simulation::{Home, TrialSettings};
 
 /// One trial from the text, to be shown.
 pub struct Case<'g> {
@@ -41,7 +41,7 @@ pub struct Experiments<'g> {
     /// The furniture as it was, and moved.
     pub homes: &'g [Home; 2],
     /// Eyes, noise, first seed.
-    pub settings: Settings,
+    pub settings: TrialSettings,
     /// Trials of each instruction.
     pub seeds: u64,
 }

@@ -4,7 +4,7 @@ use super::*;
 use crate::evaluation::{Gold, read_gold};
 use crate::map::RoomMap;
 use crate::simulation::Scene;
-use crate::simulation::{Home, Settings};
+use crate::simulation::{Home, TrialSettings};
 
 fn few() -> Vec<Gold> {
     let gold = read_gold(include_str!("../../../corpus/templates.jsonl"), "templates.jsonl").expect("a sound corpus");
@@ -16,7 +16,7 @@ fn homes() -> [Home; 2] {
 }
 
 fn once<'g>(gold: &'g [Gold], homes: &'g [Home; 2]) -> Experiments<'g> {
-    Experiments { corpus: "few".to_string(), gold, homes, settings: Settings::default(), seeds: 1 }
+    Experiments { corpus: "few".to_string(), gold, homes, settings: TrialSettings::default(), seeds: 1 }
 }
 
 #[test]

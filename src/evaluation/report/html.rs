@@ -1,10 +1,6 @@
 //! The frame of the page.
 
-/// Text as it may stand between tags and in attributes.
-pub(super) fn escaped(text: &str) -> String {
-    let text: String = text.chars().filter(|c| !c.is_control() || *c == '\n').collect();
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
+pub(super) use crate::escape::for_markup as escaped;
 
 /// Everything before the tables.
 pub(super) fn head(title: &str) -> String {
@@ -30,18 +26,18 @@ pub(super) fn head(title: &str) -> String {
     )
 }
 
-/// The heading of the trials, with the choices that narrow them.
-pub(super) fn filter(count: usize) -> String {
-    let choices = [
-        (
-            "result",
-            "Result",
-            &[("failed", "failed"), ("wrong-first", "not right first"), ("good", "right first and found")][..],
-        ),
-        ("home", "Furniture", &[("original", "as it was"), ("moved", "moved")]),
-        ("form", "Form", &[("how", "how"), ("where", "where")]),
-        ("names", "Furniture named", &[("none", "none"), ("table-only", "table only"), ("other", "other as well")]),
-    ];
+/// A choice that narrows the trials: its key in their data, what it is called, and its values with their names.
+pub(super) type Choice = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
+
+/// By how they ended.
+pub(super) const RESULTS: Choice = (
+    "result",
+    "Result",
+    &[("failed", "failed"), ("wrong-first", "not right first"), ("good", "right first and found")],
+);
+
+/// The heading of the trials, with the choices that narrow them, and what has to be known to read them.
+pub(super) fn filter(count: usize, choices: &[Choice], note: &str) -> String {
     let selects: String = choices
         .iter()
         .map(|(name, label, options)| {
@@ -52,7 +48,7 @@ pub(super) fn filter(count: usize) -> String {
         .collect();
     format!(
         r#"<h2 id="trials">Trials</h2>
-<p>Each is read from its text and driven with the first seed; failures come first. Open one to see its way, what the camera showed at the end, and how its words were read.</p>
+<p>{note}</p>
 <form id="filter" aria-label="Which trials to show">
 <label>Words<input type="search" name="words" autocomplete="off"></label>{selects}
 <p id="shown" role="status">{count} trials</p>

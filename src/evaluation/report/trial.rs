@@ -4,9 +4,11 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::html::escaped;
+use crate::behavior::Run;
 use crate::evaluation::{Case, meaning_phrase};
-use crate::record::{Chunk, Outcome};
-use crate::recording::Outputs;
+use crate::map::RoomMap;
+use crate::record::{ActionReport, Chunk, Outcome, Trial};
+use crate::recording::{Outputs, TruePiece};
 use crate::simulation::Home;
 
 /// Failed, then wrong first, then good.
@@ -38,20 +40,20 @@ pub(super) fn section(case: &Case, home: &Home) -> String {
         last_picture(case, home),
         tree(&gold.text, &case.understood.chunks),
         meanings(case),
-        trial
-            .actions
-            .iter()
-            .map(|a| format!(
-                "<li>{}: {}<br><small>{}</small></li>",
-                escaped(&a.action),
-                escaped(&a.result),
-                escaped(&a.why)
-            ))
-            .collect::<String>()
+        actions(trial)
     )
 }
 
-fn picture(media: &str, bytes: &[u8], alternative: &str, caption: &str) -> String {
+/// What was done and why, as items of a list.
+pub(super) fn actions(trial: &Trial) -> String {
+    let item = |a: &ActionReport| {
+        let [action, result, why] = [&a.action, &a.result, &a.why].map(|text| escaped(text));
+        format!("<li>{action}: {result}<br><small>{why}</small></li>")
+    };
+    trial.actions.iter().map(item).collect()
+}
+
+pub(super) fn picture(media: &str, bytes: &[u8], alternative: &str, caption: &str) -> String {
     let data = STANDARD.encode(bytes);
     format!(
         "<figure><img loading=\"lazy\" src=\"data:{media};base64,{data}\" alt=\"{}\"><figcaption>{}</figcaption></figure>",
@@ -61,8 +63,13 @@ fn picture(media: &str, bytes: &[u8], alternative: &str, caption: &str) -> Strin
 }
 
 fn way(case: &Case, home: &Home) -> String {
-    let trial = &case.run.trial;
-    let svg = Outputs::draw_plot(&home.map, &home.pieces(), &case.run, &case.gold.text);
+    way_of(&case.run, &home.map, &home.pieces(), &case.gold.text)
+}
+
+/// The way of a trial through the rooms, drawn and in words.
+pub(super) fn way_of(run: &Run, map: &RoomMap, truth: &[TruePiece], text: &str) -> String {
+    let trial = &run.trial;
+    let svg = Outputs::draw_plot(map, truth, run, text);
     let visited =
         if trial.approached.is_empty() { "no furniture".to_string() } else { trial.approached.join(", then ") };
     let alternative =
@@ -77,7 +84,7 @@ fn last_picture(case: &Case, home: &Home) -> String {
 }
 
 /// The chunk tree as nested lists.
-fn tree(text: &str, chunks: &[Chunk]) -> String {
+pub(super) fn tree(text: &str, chunks: &[Chunk]) -> String {
     format!("<ul class=\"tree\">{}</ul>\n", branches(text, chunks))
 }
 

@@ -13,10 +13,11 @@ use crate::language::Lexicon;
 use crate::map::RoomMap;
 use crate::planning::Planner;
 use crate::record::{Action, Amount, Direction, Grounding, Pair, Plan, Reference};
+use crate::simulation::Dice;
 use crate::simulation::Home;
 use crate::simulation::Item;
 use crate::simulation::arrange::access::everything_is_accessible;
-use crate::simulation::arrange::{Dice, Furnisher, RoomPlan, Spot, home_of_rooms};
+use crate::simulation::arrange::{Furnisher, RoomPlan, Spot, home_of_rooms};
 
 /// How often a home in which not everything found its place is made anew.
 const ATTEMPTS: usize = 80;

@@ -39,12 +39,18 @@ struct Text {
 }
 
 /// Reads gold groundings, one JSON object a line; `file` is named in errors.
+///
+/// # Errors
+/// When a line is no gold grounding, with the line.
 pub fn read_gold_lines(text: &str, file: &str) -> Result<Vec<GoldLine>, GoldError> {
     let lines: Vec<Line> = read_lines(text, file, "id, object, room {name, side}, nodes [{target, pairs}]")?;
     Ok(lines.into_iter().map(|line| GoldLine { id: line.id.clone(), grounding: grounding_of(line) }).collect())
 }
 
 /// Reads descriptions by their ids.
+///
+/// # Errors
+/// When a line is no description, with the line.
 pub fn read_texts(text: &str, file: &str) -> Result<BTreeMap<String, String>, GoldError> {
     let lines: Vec<Text> = read_lines(text, file, "id and text")?;
     Ok(lines.into_iter().map(|line| (line.id, line.text)).collect())

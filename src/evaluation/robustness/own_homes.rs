@@ -23,6 +23,9 @@ pub struct OwnHome {
 }
 
 /// The other shipped homes.
+///
+/// # Errors
+/// When the descriptions of a shipped home are no gold, or a home of theirs is not shipped.
 pub fn own_homes() -> Result<Vec<OwnHome>, GoldError> {
     let embedded = |name: &'static str, text: &str| {
         let gold = read_gold(text, &format!("{name}.jsonl"))?;

@@ -14,14 +14,14 @@ use crate::grounding::{Grounder, Method};
 use crate::language::{Lexicon, chunk_text};
 use crate::planning::Planner;
 use crate::record::{Grounding, Outcome, Plan, Trial};
-use crate::simulation::arrange::{Dice, Relations, rearranged};
-use crate::simulation::{Home, Settings, run, stream_of};
+use crate::simulation::arrange::{Relations, rearranged};
+use crate::simulation::{Dice, Home, TrialSettings, run, stream_of};
 
 /// How an experiment is run.
 #[derive(Clone, Copy)]
 pub struct Experiment<'a> {
     /// How each trial is run; its seed is the first.
-    pub settings: Settings,
+    pub settings: TrialSettings,
     /// Trials of each description, with a seed each.
     pub seeds: u64,
     /// Told of each trial that is done.
@@ -30,7 +30,7 @@ pub struct Experiment<'a> {
 
 impl Experiment<'_> {
     fn trial(&self, home: &Home, plan: &Plan, id: &str, seed: u64) -> Trial {
-        let settings = Settings { seed: self.settings.seed.wrapping_add(seed), ..self.settings };
+        let settings = TrialSettings { seed: self.settings.seed.wrapping_add(seed), ..self.settings };
         let trial = run(home, plan, &settings, stream_of(id), &mut Silent).trial;
         (self.done)();
         trial
@@ -59,6 +59,9 @@ pub fn placements(gold: &[Gold], home: &Home, relations: Relations, count: usize
 }
 
 /// The other shipped homes, each with its own descriptions.
+///
+/// # Errors
+/// When the shipped descriptions of a home are no gold, which a test refuses.
 pub fn homes(experiment: &Experiment) -> Result<Vec<Tally>, GoldError> {
     let tally = |OwnHome { name, home, gold }: OwnHome| {
         let one = |(gold, plan): &(&Gold, Plan)| {

@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use super::Pipeline;
 use crate::record::{Outcome, Plan};
-use crate::simulation::{Home, Settings};
+use crate::simulation::{Home, TrialSettings};
 
 /// What a trial comes to: where it goes first, and how it ends.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
@@ -40,7 +40,7 @@ pub struct WhatIf {
 }
 
 /// Tries words, and shifts of the pieces of furniture named, or of all when none is.
-pub fn what_if(id: &str, text: &str, home: &Home, settings: &Settings, pieces: &[String]) -> WhatIf {
+pub fn what_if(id: &str, text: &str, home: &Home, settings: &TrialSettings, pieces: &[String]) -> WhatIf {
     let pipeline = Pipeline::new(home, *settings);
     let plan = pipeline.understand(text).plan;
     let now = upshot(&pipeline, id, &plan);
@@ -62,7 +62,7 @@ mod tests {
     fn the_side_that_picks_the_room_and_the_table_that_is_chosen_are_found_out() {
         let text = "the mug is in the room on the left on the table with the chairs";
         let home = Home::load(None, None).expect("the apartment");
-        let found = what_if("1", text, &home, &Settings::default(), &["hexagon-table-1".to_string()]);
+        let found = what_if("1", text, &home, &TrialSettings::default(), &["hexagon-table-1".to_string()]);
         assert_eq!(found.now.first.as_deref(), Some("hexagon-table-1"));
         let side = found.words.iter().find(|w| w.change == "left → right").expect("the side matters");
         assert_ne!(side.then.first.as_deref(), Some("hexagon-table-1"));

@@ -8,7 +8,7 @@ use super::{Upshot, upshot};
 use crate::evaluation::Pipeline;
 use crate::record::{Plan, Rounded};
 use crate::simulation::check;
-use crate::simulation::{Home, Settings};
+use crate::simulation::{Home, TrialSettings};
 
 /// The smallest shift of one piece that changes the upshot.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -33,7 +33,7 @@ const FINE_M: f64 = 0.01;
 /// The trial whose upshot is to change.
 pub(super) struct Trial<'a> {
     pub home: &'a Home,
-    pub settings: &'a Settings,
+    pub settings: &'a TrialSettings,
     pub id: &'a str,
     pub plan: &'a Plan,
     pub now: &'a Upshot,

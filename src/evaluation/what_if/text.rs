@@ -2,7 +2,6 @@
 
 use super::shifts::metres;
 use super::{Shift, Upshot, WhatIf};
-use crate::record::Outcome;
 
 /// As it is, then the words, then the furniture, the nearest to a change first.
 pub fn what_if_text(what: &WhatIf) -> String {
@@ -34,15 +33,6 @@ fn shift_line(shift: &Shift) -> Option<String> {
 }
 
 fn upshot(upshot: &Upshot) -> String {
-    let end = match upshot.outcome {
-        Outcome::Found => "found",
-        Outcome::Arrived => "arrived",
-        Outcome::NotFound => "not found",
-        Outcome::Blocked => "blocked",
-        Outcome::Stuck => "stuck",
-        Outcome::Timeout => "timed out",
-        Outcome::Stopped => "stopped",
-        Outcome::LinkLost => "link lost",
-    };
+    let end = upshot.outcome.phrase();
     format!("first to {}, {end}", upshot.first.as_deref().unwrap_or("nothing"))
 }

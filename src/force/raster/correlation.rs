@@ -7,7 +7,7 @@
 
 use super::corners::{Corner, corners};
 use super::fourier;
-use super::nodes::{Count, Frame};
+use super::nodes::{Count, Shifts};
 use super::{Fuzzy, Raster};
 
 /// What a transform costs per node and octave, in pairs of corners.
@@ -19,7 +19,7 @@ pub(super) struct Covariogram {
     /// What a count of one means.
     pub(super) unit: f64,
     pub(super) table: Counts,
-    pub(super) frame: Frame,
+    pub(super) shifts: Shifts,
 }
 
 /// The counts, as narrow as they fit: memory is what the rays wait for.
@@ -32,10 +32,10 @@ pub(super) enum Counts {
 impl Covariogram {
     /// C at an integer shift, in cells.
     pub(super) fn at(&self, x: i32, y: i32) -> f64 {
-        if !self.frame.contains(x, y) {
+        if !self.shifts.contains(x, y) {
             return 0.0;
         }
-        let index = self.frame.index(x, y);
+        let index = self.shifts.index(x, y);
         self.unit
             * match &self.table {
                 Counts::Narrow(counts) => f64::from(counts[index]),
@@ -51,9 +51,9 @@ impl Covariogram {
     /// Cells between the two: C is open where it is positive at one of a square's nodes.
     pub(super) fn distance(&self) -> f64 {
         let mut least = i64::MAX;
-        for y in self.frame.low.1..=self.frame.high.1 {
+        for y in self.shifts.low.1..=self.shifts.high.1 {
             let dy = i64::from(y.abs() - 1).max(0);
-            for x in self.frame.low.0..=self.frame.high.0 {
+            for x in self.shifts.low.0..=self.shifts.high.0 {
                 let dx = i64::from(x.abs() - 1).max(0);
                 if dx * dx + dy * dy < least && self.at(x, y) > 0.0 {
                     least = dx * dx + dy * dy;
@@ -79,12 +79,12 @@ pub(super) fn covariogram(a: &Raster, b: &Raster, fuzzy: Fuzzy) -> Covariogram {
         Fuzzy::Minimum if !crisp => level_layers(a, b),
         _ => (vec![whole_layer(a, b)], 1.0 / (f64::from(a.full()) * f64::from(b.full()))),
     };
-    let frame = frame_of(&layers);
+    let shifts = shifts_of(&layers);
     let table = match most(&layers, a.levels().len()) {
-        most if most <= i64::from(i32::MAX) => Counts::Narrow(count(&layers, frame)),
-        _ => Counts::Wide(count(&layers, frame)),
+        most if most <= i64::from(i32::MAX) => Counts::Narrow(count(&layers, shifts)),
+        _ => Counts::Wide(count(&layers, shifts)),
     };
-    Covariogram { unit, table, frame }
+    Covariogram { unit, table, shifts }
 }
 
 fn whole_layer(a: &Raster, b: &Raster) -> Layer {
@@ -119,7 +119,7 @@ fn most(layers: &[Layer], cells: usize) -> i64 {
     layers.iter().map(|l| i64::from(l.weight) * top(&l.a) * top(&l.b) * cells as i64).sum()
 }
 
-fn frame_of(layers: &[Layer]) -> Frame {
+fn shifts_of(layers: &[Layer]) -> Shifts {
     let range = |pick: fn(&Layer) -> &[Corner], axis: fn(&Corner) -> i32| {
         let all = layers.iter().flat_map(pick).map(axis);
         all.fold((i32::MAX, i32::MIN), |(low, high), v| (low.min(v), high.max(v)))
@@ -127,37 +127,37 @@ fn frame_of(layers: &[Layer]) -> Frame {
     let a = (range(|l| &l.a, |c| c.x), range(|l| &l.a, |c| c.y));
     let b = (range(|l| &l.b, |c| c.x), range(|l| &l.b, |c| c.y));
     if layers.is_empty() {
-        return Frame { low: (0, 0), high: (0, 0) };
+        return Shifts { low: (0, 0), high: (0, 0) };
     }
-    Frame { low: (a.0.0 - b.0.1, a.1.0 - b.1.1), high: (a.0.1 - b.0.0, a.1.1 - b.1.0) }
+    Shifts { low: (a.0.0 - b.0.1, a.1.0 - b.1.1), high: (a.0.1 - b.0.0, a.1.1 - b.1.0) }
 }
 
-fn count<T: Count>(layers: &[Layer], frame: Frame) -> Vec<T> {
-    let mut table = vec![T::default(); frame.stride() * frame.rows()];
+fn count<T: Count>(layers: &[Layer], shifts: Shifts) -> Vec<T> {
+    let mut table = vec![T::default(); shifts.stride() * shifts.rows()];
     let pairs: f64 = layers.iter().map(|l| l.a.len() as f64 * l.b.len() as f64).sum();
     let nodes = table.len() as f64;
     let transforms = (2 * layers.len() + 1) as f64;
     if pairs <= TRANSFORM_COST * transforms * nodes * nodes.log2() / 3.0 {
         for layer in layers {
-            add_corner_pairs(layer, frame, &mut table);
+            add_corner_pairs(layer, shifts, &mut table);
         }
-        sum_twice(&mut table, frame.stride());
+        sum_twice(&mut table, shifts.stride());
     } else {
         // The corners stand for the images: their correlation is C's mixed second difference.
         let stacks = layers.iter().map(|l| (l.weight, l.a.as_slice(), l.b.as_slice()));
-        fourier::add_correlation(stacks, frame, &mut table);
-        sum_twice(&mut table, frame.stride());
+        fourier::add_correlation(stacks, shifts, &mut table);
+        sum_twice(&mut table, shifts.stride());
     }
     table
 }
 
-fn add_corner_pairs<T: Count>(layer: &Layer, frame: Frame, table: &mut [T]) {
-    let stride = frame.stride() as i64;
+fn add_corner_pairs<T: Count>(layer: &Layer, shifts: Shifts, table: &mut [T]) {
+    let stride = shifts.stride() as i64;
     // The place of a pair is the difference of two places: one subtraction each.
     let place_of = |corner: &Corner| i64::from(corner.y) * stride + i64::from(corner.x);
     let second: Vec<(i64, i64)> = layer.b.iter().map(|c| (place_of(c), i64::from(c.weight))).collect();
     for corner in &layer.a {
-        let (place, weight) = (frame.origin() + place_of(corner), i64::from(corner.weight) * i64::from(layer.weight));
+        let (place, weight) = (shifts.origin() + place_of(corner), i64::from(corner.weight) * i64::from(layer.weight));
         for (other, other_weight) in &second {
             let node = &mut table[(place - other) as usize];
             *node = node.plus(T::of(weight * other_weight));

@@ -4,7 +4,7 @@ use rustfft::num_complex::Complex;
 use rustfft::{FftDirection, FftPlanner};
 
 use super::corners::Corner;
-use super::nodes::{Count, Frame};
+use super::nodes::{Count, Shifts};
 
 type Plane = Vec<Complex<f64>>;
 
@@ -14,10 +14,10 @@ type Plane = Vec<Complex<f64>>;
 /// nothing wraps round onto a node that is read.
 pub(super) fn add_correlation<'l, T: Count>(
     layers: impl Iterator<Item = (i32, &'l [Corner], &'l [Corner])>,
-    frame: Frame,
+    shifts: Shifts,
     table: &mut [T],
 ) {
-    let stride = frame.stride();
+    let stride = shifts.stride();
     let torus = Torus { width: smooth(stride), height: smooth(table.len() / stride) };
     let mut spectrum = vec![Complex::default(); torus.width * torus.height];
     for (weight, a, b) in layers {
@@ -28,10 +28,10 @@ pub(super) fn add_correlation<'l, T: Count>(
     }
     torus.turn(&mut spectrum, FftDirection::Inverse);
     let scale = 1.0 / spectrum.len() as f64;
-    for y in frame.low.1..=frame.high.1 {
-        for x in frame.low.0..=frame.high.0 {
+    for y in shifts.low.1..=shifts.high.1 {
+        for x in shifts.low.0..=shifts.high.0 {
             let value = spectrum[torus.place(x, y)].re * scale;
-            let node = &mut table[frame.index(x, y)];
+            let node = &mut table[shifts.index(x, y)];
             *node = node.plus(T::of(value.round() as i64));
         }
     }
@@ -100,12 +100,12 @@ mod tests {
     fn the_transform_gives_the_same_integers_as_pairs_of_corners() {
         let corner = |i: i32| Corner { x: (i * 7) % 13, y: (i * 5) % 11, weight: 1 - (i % 3) };
         let (a, b): (Vec<_>, Vec<_>) = ((0..20).map(corner).collect(), (20..50).map(corner).collect());
-        let frame = Frame { low: (-13, -11), high: (13, 11) };
-        let mut table = vec![0_i64; frame.stride() * 27];
-        add_correlation([(3, a.as_slice(), b.as_slice())].into_iter(), frame, &mut table);
+        let shifts = Shifts { low: (-13, -11), high: (13, 11) };
+        let mut table = vec![0_i64; shifts.stride() * 27];
+        add_correlation([(3, a.as_slice(), b.as_slice())].into_iter(), shifts, &mut table);
         for p in &a {
             for q in &b {
-                table[frame.index(p.x - q.x, p.y - q.y)] -= i64::from(3 * p.weight * q.weight);
+                table[shifts.index(p.x - q.x, p.y - q.y)] -= i64::from(3 * p.weight * q.weight);
             }
         }
         assert!(table.iter().all(|count| *count == 0));

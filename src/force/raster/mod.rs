@@ -11,8 +11,8 @@ mod correlation;
 mod fourier;
 mod image;
 mod nodes;
-mod piece;
 mod ray;
+mod stretch;
 
 pub use self::image::{Raster, RasterError};
 
@@ -35,21 +35,21 @@ pub enum Fuzzy {
 /// Two rasters' correlation, from which every histogram follows.
 ///
 /// ```
-/// use spatial_fetch::force::{Force, raster::{Fuzzy, Pair, Raster}};
+/// use spatial_fetch::force::{Force, raster::{Fuzzy, RasterPair, Raster}};
 /// let a = Raster::from_rows(&["...#"], 1.0).unwrap();
 /// let b = Raster::from_rows(&["#..."], 1.0).unwrap();
-/// let pair = Pair::new(&a, &b, Fuzzy::Product).unwrap();
+/// let pair = RasterPair::new(&a, &b, Fuzzy::Product).unwrap();
 /// let histogram = pair.histogram(Force::Power(2.0), 360).unwrap();
 /// assert!((histogram.values()[0] - (9.0_f64 / 8.0).ln()).abs() < 1e-12);
 /// ```
 #[derive(Clone, Debug)]
-pub struct Pair {
+pub struct RasterPair {
     covariogram: Covariogram,
     cell: f64,
     smaller_area: f64,
 }
 
-impl Pair {
+impl RasterPair {
     /// Correlates two rasters of the same size and cell.
     ///
     /// # Errors

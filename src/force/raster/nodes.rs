@@ -4,14 +4,14 @@
 const MARGIN: i32 = 2;
 /// Where the nodes of a table lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Frame {
+pub(super) struct Shifts {
     /// Shift of the first node without margin.
     pub(super) low: (i32, i32),
     /// Shift of the last node without margin.
     pub(super) high: (i32, i32),
 }
 
-impl Frame {
+impl Shifts {
     pub(super) fn stride(&self) -> usize {
         (self.high.0 - self.low.0 + 1 + 2 * MARGIN) as usize
     }

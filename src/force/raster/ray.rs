@@ -1,26 +1,26 @@
-//! A ray through the covariogram: its pieces, and the forces along it.
+//! A ray through the covariogram: its stretches, and the forces along it.
 //!
 //! The ray is followed column by column along the axis it is closer to. Within
-//! a column it crosses at most one line of nodes, so each column is two pieces,
+//! a column it crosses at most one line of nodes, so each column is two stretches,
 //! the second one often empty: no branches, and eight columns side by side.
 
 use multiversion::multiversion;
 
 use super::super::Force;
 use super::correlation::{Counts, Covariogram};
-use super::nodes::{Count, Frame};
-use super::piece::Piece;
+use super::nodes::{Count, Shifts};
+use super::stretch::Stretch;
 
 /// Columns worked on at a time.
 const BLOCK: usize = 64;
 /// Columns side by side in one instruction.
 const LANES: usize = 8;
-/// Before this column pieces are long for their distance, and integrate in closed form.
+/// Before this column stretches are long for their distance, and integrate in closed form.
 const NEAR_COLUMNS: i32 = 6;
 
-/// Pieces in the order of the ray, one array per quantity.
+/// Stretches in the order of the ray, one array per quantity.
 #[derive(Clone, Debug)]
-struct Pieces {
+struct Stretches {
     middle: [f64; BLOCK],
     half: [f64; BLOCK],
     q: [[f64; BLOCK]; 3],
@@ -59,17 +59,17 @@ struct Way {
 }
 
 impl Way {
-    fn new(frame: &Frame, sin: f64, cos: f64) -> Self {
-        let stride = frame.stride() as i64;
-        let along_x = (cos, 1, (frame.low.0, frame.high.0));
-        let along_y = (sin, stride, (frame.low.1, frame.high.1));
+    fn new(shifts: &Shifts, sin: f64, cos: f64) -> Self {
+        let stride = shifts.stride() as i64;
+        let along_x = (cos, 1, (shifts.low.0, shifts.high.0));
+        let along_y = (sin, stride, (shifts.low.1, shifts.high.1));
         let (main, cross) = if cos.abs() >= sin.abs() { (along_x, along_y) } else { (along_y, along_x) };
         let forward = |(component, step, (low, high)): (f64, i64, (i32, i32))| {
             if component < 0.0 { (-component, -step, (-high, -low)) } else { (component.abs(), step, (low, high)) }
         };
         let ((main, main_step, reach), (cross, cross_step, side)) = (forward(main), forward(cross));
         let columns = columns(cross / main, reach, side);
-        Self { main, cross, main_step, cross_step, origin: frame.origin(), columns }
+        Self { main, cross, main_step, cross_step, origin: shifts.origin(), columns }
     }
 }
 
@@ -92,28 +92,28 @@ pub(super) struct Rays {
     forces: Vec<Force>,
     sums: Vec<f64>,
     nodes: (Nodes<i32>, Nodes<i64>),
-    pieces: [Pieces; 2],
+    stretches: [Stretches; 2],
 }
 
 impl Rays {
     /// Rays for forces in units of cells.
     pub(super) fn new(forces: Vec<Force>) -> Self {
         let zeros = [0.0; BLOCK];
-        let pieces = || Pieces { middle: [1.0; BLOCK], half: zeros, q: [zeros; 3] };
+        let stretches = || Stretches { middle: [1.0; BLOCK], half: zeros, q: [zeros; 3] };
         Self {
             sums: vec![0.0; forces.len()],
             forces,
             nodes: (Nodes::new(), Nodes::new()),
-            pieces: [pieces(), pieces()],
+            stretches: [stretches(), stretches()],
         }
     }
 
     /// The resultant of each force in one direction, in units of cells.
     pub(super) fn resultants(&mut self, c: &Covariogram, sin: f64, cos: f64) -> impl Iterator<Item = f64> + '_ {
-        let way = Way::new(&c.frame, sin, cos);
+        let way = Way::new(&c.shifts, sin, cos);
         self.sums.fill(0.0);
-        let Self { forces, sums, nodes, pieces } = self;
-        let mut ray = Ray { forces, sums, pieces, way };
+        let Self { forces, sums, nodes, stretches } = self;
+        let mut ray = Ray { forces, sums, stretches, way };
         match &c.table {
             Counts::Narrow(table) => ray.follow(table, &mut nodes.0),
             Counts::Wide(table) => ray.follow(table, &mut nodes.1),
@@ -127,7 +127,7 @@ impl Rays {
 struct Ray<'r> {
     forces: &'r [Force],
     sums: &'r mut [f64],
-    pieces: &'r mut [Pieces; 2],
+    stretches: &'r mut [Stretches; 2],
     way: Way,
 }
 
@@ -140,7 +140,7 @@ impl Ray<'_> {
             let count = (to - from) as usize;
             enter(way, from, count, nodes);
             read_nodes(table, way, count, nodes);
-            cut(nodes, way, from, count, self.pieces);
+            cut(nodes, way, from, count, self.stretches);
             if from < NEAR_COLUMNS {
                 self.add_near(count)
             } else {
@@ -152,28 +152,28 @@ impl Ray<'_> {
 
     fn add_near(&mut self, count: usize) {
         for (force, sum) in self.forces.iter().zip(&mut *self.sums) {
-            *sum += one_by_one(self.pieces, count, *force);
+            *sum += one_by_one(self.stretches, count, *force);
         }
     }
 
     fn add_far(&mut self, count: usize) {
-        let (first, last) = (&self.pieces[0], &self.pieces[1]);
+        let (first, last) = (&self.stretches[0], &self.stretches[1]);
         let (begin, end) = (first.middle[0] - first.half[0], last.middle[count - 1] + last.half[count - 1]);
         for (force, sum) in self.forces.iter().zip(&mut *self.sums) {
             *sum += match *force {
-                Force::Power(0.0) => constant(self.pieces, count),
-                Force::Power(2.0) => gravitational(self.pieces, count),
-                Force::Hybrid(y0) if end <= y0 => constant(self.pieces, count) / (y0 * y0),
-                Force::Hybrid(y0) if begin >= y0 => gravitational(self.pieces, count),
-                other => one_by_one(self.pieces, count, other),
+                Force::Power(0.0) => constant(self.stretches, count),
+                Force::Power(2.0) => gravitational(self.stretches, count),
+                Force::Hybrid(y0) if end <= y0 => constant(self.stretches, count) / (y0 * y0),
+                Force::Hybrid(y0) if begin >= y0 => gravitational(self.stretches, count),
+                other => one_by_one(self.stretches, count, other),
             };
         }
     }
 }
 
-fn one_by_one(pieces: &[Pieces; 2], count: usize, force: Force) -> f64 {
-    let piece = |p: &Pieces, i: usize| Piece { middle: p.middle[i], half: p.half[i], q: p.q.map(|q| q[i]) };
-    (0..count).map(|i| piece(&pieces[0], i).force(force) + piece(&pieces[1], i).force(force)).sum()
+fn one_by_one(stretches: &[Stretches; 2], count: usize, force: Force) -> f64 {
+    let stretch = |p: &Stretches, i: usize| Stretch { middle: p.middle[i], half: p.half[i], q: p.q.map(|q| q[i]) };
+    (0..count).map(|i| stretch(&stretches[0], i).force(force) + stretch(&stretches[1], i).force(force)).sum()
 }
 
 /// Where the ray enters the columns from `from` on.
@@ -210,12 +210,12 @@ fn read_nodes<T: Count>(table: &[T], way: Way, count: usize, nodes: &mut Nodes<T
     }
 }
 
-/// Cuts the columns of a block into pieces, before and after the line of nodes that the ray crosses.
+/// Cuts the columns of a block into stretches, before and after the line of nodes that the ray crosses.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn cut<T: Count>(nodes: &Nodes<T>, way: Way, from: i32, count: usize, pieces: &mut [Pieces; 2]) {
+fn cut<T: Count>(nodes: &Nodes<T>, way: Way, from: i32, count: usize, stretches: &mut [Stretches; 2]) {
     let slope = way.cross / way.main;
     let per_main = 1.0 / way.main;
-    let [before, after] = pieces;
+    let [before, after] = stretches;
     // Whole lanes, so that none is left over to be done one by one.
     for i in 0..count.next_multiple_of(LANES).min(BLOCK) {
         let entry = nodes.entry[i];
@@ -249,8 +249,8 @@ fn quadratic([c00, c10, c01, c11]: [f64; 4], x: f64, y: f64, main: f64, cross: f
 
 type Lanes = [f64; LANES];
 
-impl Pieces {
-    /// The first `count` pieces, eight by eight: middles, halves and the coefficients that are asked for.
+impl Stretches {
+    /// The first `count` stretches, eight by eight: middles, halves and the coefficients that are asked for.
     #[inline(always)]
     fn lanes<const N: usize>(
         &self,
@@ -272,9 +272,9 @@ fn add(sums: &mut Lanes, term: impl Fn(usize) -> f64) {
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn constant(pieces: &[Pieces; 2], count: usize) -> f64 {
+fn constant(stretches: &[Stretches; 2], count: usize) -> f64 {
     let mut sums = [0.0; LANES];
-    for p in pieces {
+    for p in stretches {
         for (_, half, [q0, q2]) in p.lanes(count, [0, 2]) {
             add(&mut sums, |i| 2.0 * half[i] * (q0[i] + q2[i] * (half[i] * half[i] * (1.0 / 3.0))));
         }
@@ -282,11 +282,11 @@ fn constant(pieces: &[Pieces; 2], count: usize) -> f64 {
     sums.iter().sum()
 }
 
-/// ∫ C(t)/t² dt over pieces with x = half/middle ≤ 1/12, by the series of its three moments: what is left out is below 1e-13.
+/// ∫ C(t)/t² dt over stretches with x = half/middle ≤ 1/12, by the series of its three moments: what is left out is below 1e-13.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn gravitational(pieces: &[Pieces; 2], count: usize) -> f64 {
+fn gravitational(stretches: &[Stretches; 2], count: usize) -> f64 {
     let mut sums = [0.0; LANES];
-    for p in pieces {
+    for p in stretches {
         for (middle, half, [q0, q1, q2]) in p.lanes(count, [0, 1, 2]) {
             add(&mut sums, |i| {
                 let inverse = 1.0 / middle[i];

@@ -135,6 +135,9 @@ impl LabelledTree {
     }
 
     /// The tree of a record with `text`, `chunks` and, in pre-order, `groundings`.
+    ///
+    /// # Errors
+    /// When a key is missing, is not what it should be, or chunks and groundings are not as many.
     pub fn from_record(record: &Record) -> Result<Self, TrainingError> {
         let wrong = |error: crate::record::FieldError| TrainingError(error.to_string());
         let text: String = record.require("text", "a labelled record needs the description").map_err(wrong)?;

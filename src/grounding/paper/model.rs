@@ -116,12 +116,18 @@ impl Model {
     }
 
     /// The model as JSON.
+    ///
+    /// # Errors
+    /// When it cannot be written as JSON, which does not happen to a model of finite numbers.
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
         let examples = self.examples.clone();
         serde_json::to_string(&ModelFile { version: VERSION, options: self.options, examples })
     }
 
     /// A model from its JSON.
+    ///
+    /// # Errors
+    /// When the text is no model, or one of another version.
     pub fn from_json(text: &str) -> Result<Self, ModelError> {
         let file: ModelFile = serde_json::from_str(text)?;
         if file.version != VERSION {

@@ -1,7 +1,8 @@
 //! Where two rooms meet: one line for the wall between them, and the doors in it.
 
 use super::RoomKey;
-use super::grid::{CellState, Grid};
+use super::grid::Grid;
+use super::mode::CellState;
 use crate::geometry::{Vec2, vec2};
 use crate::map::Door;
 

@@ -2,31 +2,13 @@
 
 use std::path::Path;
 
-use zune_ppm::PPMDecoder;
-use zune_ppm::zune_core::bytestream::ZCursor;
-use zune_ppm::zune_core::result::DecodingResult;
-
-use crate::geometry::{ClearanceGrid, Polygon, Pose, Vec2, distance_to_segment, vec2};
-use crate::limits::MAP_CELLS;
+use super::image::Image;
+use super::mode::{CellState, Thresholds};
+use crate::geometry::{ClearanceGrid, Polygon, Vec2, distance_to_segment, vec2};
+use crate::limits::{HOME_INNER_WALLS, PICTURE_FILE_BYTES};
 
 /// A cell this near to a room's outline belongs to its wall, metres.
 const WALL_M: f64 = 0.25;
-
-/// From which shares of darkness on a cell is occupied, and free.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Thresholds {
-    pub occupied: f64,
-    pub free: f64,
-    pub negate: bool,
-}
-
-/// What a cell is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum CellState {
-    Free,
-    Occupied,
-    Unknown,
-}
 
 /// Cells by column and row, row 0 at the south.
 pub(super) struct Grid {
@@ -38,23 +20,15 @@ pub(super) struct Grid {
 }
 
 impl Grid {
+    /// Reads the image of a grid whose cells are `cell_m` metres wide.
+    ///
+    /// # Errors
+    /// When the image cannot be read or is none.
     pub fn read(path: &Path, cell_m: f64, origin: Vec2, thresholds: Thresholds) -> Result<Self, String> {
-        let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
-        let mut decoder = PPMDecoder::new(ZCursor::new(bytes.as_slice()));
-        let unreadable = |what: String| format!("not a binary PGM (P5) that can be read: {what}");
-        decoder.decode_headers().map_err(|error| unreadable(format!("{error:?}")))?;
-        let (width, height) = decoder.dimensions().ok_or_else(|| unreadable("no size".to_string()))?;
-        MAP_CELLS.check(width.saturating_mul(height)).map_err(|error| format!("{error}; scale the map down"))?;
-        let levels: Vec<f64> = match decoder.decode().map_err(|error| unreadable(format!("{error:?}")))? {
-            DecodingResult::U8(levels) => levels.iter().map(|&level| f64::from(level) / 255.0).collect(),
-            DecodingResult::U16(levels) => levels.iter().map(|&level| f64::from(level) / 65535.0).collect(),
-            _ => return Err(unreadable("not 8 or 16 bits a pixel".to_string())),
-        };
-        if levels.len() != width * height {
-            return Err(unreadable("it has colours; save it as grey levels".to_string()));
-        }
+        let bytes = PICTURE_FILE_BYTES.read(path).map_err(|error| error.to_string())?;
+        let Image { width, height, pixels } = Image::decode(&bytes)?;
         let rows = (0..height).rev();
-        let cells = rows.flat_map(|row| &levels[row * width..(row + 1) * width]).map(|&level| state(level, thresholds));
+        let cells = rows.flat_map(|row| &pixels[row * width..(row + 1) * width]).map(|&pixel| thresholds.state(pixel));
         Ok(Self { width, height, cell_m, origin, cells: cells.collect() })
     }
 
@@ -86,20 +60,21 @@ impl Grid {
     pub fn clearance(&self, reach_m: f64) -> ClearanceGrid {
         let high = self.origin + vec2(self.width as f64, self.height as f64) * self.cell_m;
         let mut clearance = ClearanceGrid::new(self.origin, high, self.cell_m, reach_m);
-        for y in 0..self.height {
-            for x in 0..self.width {
-                if self.at(self.centre(x, y)) != CellState::Free && self.borders_free(x, y) {
-                    let at = self.centre(x, y);
-                    clearance.add_polygon(&Polygon::rectangle(Pose::new(at.x, at.y, 0.0), self.cell_m, self.cell_m));
-                }
-            }
-        }
+        // The grid may have one more column or row where the size is no round number.
+        clearance.add_cells(|x, y| {
+            x < self.width && y < self.height && self.state(x, y) != CellState::Free && self.borders_free(x, y)
+        });
         clearance
     }
 
+    fn state(&self, x: usize, y: usize) -> CellState {
+        self.cells[y * self.width + x]
+    }
+
     fn borders_free(&self, x: usize, y: usize) -> bool {
-        let steps = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
-        steps.iter().any(|&(dx, dy)| self.at(self.centre(x, y) + vec2(dx, dy) * self.cell_m) == CellState::Free)
+        let beside = [(x + 1, y), (x.wrapping_sub(1), y), (x, y + 1), (x, y.wrapping_sub(1))];
+        let inside = beside.into_iter().filter(|&(x, y)| x < self.width && y < self.height);
+        inside.into_iter().any(|(x, y)| self.state(x, y) == CellState::Free)
     }
 
     /// The place within an outline that is farthest from everything.
@@ -115,32 +90,28 @@ impl Grid {
     pub fn walls_away_from(&self, outlines: &[Vec<[f64; 2]>]) -> Vec<[[f64; 2]; 2]> {
         let rooms: Vec<Polygon> =
             outlines.iter().map(|o| Polygon::new(o.iter().map(|&[x, y]| vec2(x, y)).collect())).collect();
+        let boxes: Vec<(Vec2, Vec2)> = rooms.iter().map(Polygon::bounds).collect();
         let inner = |at: Vec2| {
+            let margin = Vec2::repeat(WALL_M);
+            let near = |(low, high): &(Vec2, Vec2)| at >= low - margin && at <= high + margin;
+            let near: Vec<&Polygon> = rooms.iter().zip(&boxes).filter(|(_, b)| near(b)).map(|(room, _)| room).collect();
             let edge =
                 |room: &Polygon| room.edges().map(|(a, b)| distance_to_segment(at, a, b)).fold(f64::INFINITY, f64::min);
-            rooms.iter().any(|room| room.contains(at)) && rooms.iter().all(|room| edge(room) > WALL_M)
+            near.iter().any(|room| room.contains(at)) && near.iter().all(|room| edge(room) > WALL_M)
         };
         let half = self.cell_m / 2.0;
         let mut walls: Vec<[[f64; 2]; 2]> = Vec::new();
         for (x, y) in self.cells(CellState::Occupied).filter(|&(x, y)| inner(self.centre(x, y))) {
             let at = self.centre(x, y);
+            let too_many = walls.len() > HOME_INNER_WALLS.count();
             match walls.last_mut() {
                 // The next cell of the same row lengthens the segment.
                 Some([_, end]) if end[1] == at.y && (at.x - half - end[0]).abs() < 1e-6 => end[0] = at.x + half,
+                // The check of the map says how many are too many.
+                _ if too_many => break,
                 _ => walls.push([[at.x - half, at.y], [at.x + half, at.y]]),
             }
         }
         walls
-    }
-}
-
-fn state(level: f64, thresholds: Thresholds) -> CellState {
-    let dark = if thresholds.negate { level } else { 1.0 - level };
-    if dark > thresholds.occupied {
-        CellState::Occupied
-    } else if dark < thresholds.free {
-        CellState::Free
-    } else {
-        CellState::Unknown
     }
 }

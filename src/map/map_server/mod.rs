@@ -1,4 +1,4 @@
-//! A ROS `map_server` pair, YAML and PGM, as a room map.
+//! A ROS `map_server` pair, YAML and image, as a room map.
 //!
 //! A grid has no names: the YAML's own key `rooms` (which `map_server`
 //! ignores) gives each room a point to start from, or its outline. A room is
@@ -7,6 +7,8 @@
 
 mod doors;
 mod grid;
+mod image;
+mod mode;
 mod rooms;
 
 use std::path::Path;
@@ -16,7 +18,9 @@ use serde::Deserialize;
 use super::error::{WorldError, read};
 use super::room_map::{Door, FORMAT_VERSION, Room, RoomMap};
 use crate::geometry::{Pose, vec2};
-use grid::{Grid, Thresholds};
+use crate::limits::{HOME_COORDINATE_M, HOME_CORNERS, HOME_ROOMS};
+use grid::Grid;
+use mode::{Mode, Negate, Thresholds};
 
 /// The YAML file.
 #[derive(Deserialize)]
@@ -24,8 +28,8 @@ struct MapFile {
     image: String,
     resolution: f64,
     origin: [f64; 3],
-    #[serde(default)]
-    negate: u8,
+    mode: Option<String>,
+    negate: Option<Negate>,
     #[serde(default = "usual_occupied")]
     occupied_thresh: f64,
     #[serde(default = "usual_free")]
@@ -58,6 +62,10 @@ fn usual_free() -> f64 {
     0.196
 }
 
+/// Sides of a cell that a map can have, metres.
+const FINEST_M: f64 = 0.005;
+const COARSEST_M: f64 = 1.0;
+
 /// Names the file in what is wrong with it.
 struct Source<'a>(&'a str);
 
@@ -80,16 +88,43 @@ pub(super) fn load(path: &Path) -> Result<RoomMap, WorldError> {
     if keys.origin[2].abs() > 1e-9 {
         return Err(source.wrong("origin", "a turned map is not read; turn the image instead and give yaw 0"));
     }
-    let sound = keys.resolution.is_finite() && keys.resolution > 0.0;
-    if !sound {
-        return Err(source.wrong("resolution", "must be above 0 m a cell; 0.05 is usual"));
+    if !(FINEST_M..=COARSEST_M).contains(&keys.resolution) {
+        let message = format!("must be {FINEST_M} to {COARSEST_M} m a cell; 0.05 is usual");
+        return Err(source.wrong("resolution", message));
     }
+    if !keys.origin.iter().all(|v| v.abs() <= HOME_COORDINATE_M.value as f64) {
+        let message = format!("must be numbers of metres, none beyond {}", HOME_COORDINATE_M.value);
+        return Err(source.wrong("origin", message));
+    }
+    HOME_ROOMS.check(keys.rooms.len()).map_err(|message| source.wrong("rooms", message))?;
+    let corners = keys.rooms.iter().filter_map(|room| room.outline.as_ref()).map(Vec::len).sum();
+    HOME_CORNERS.check(corners).map_err(|message| source.wrong("rooms", message))?;
     let image = path.parent().unwrap_or(Path::new("")).join(&keys.image);
-    let thresholds = Thresholds { occupied: keys.occupied_thresh, free: keys.free_thresh, negate: keys.negate != 0 };
+    let thresholds = thresholds(&keys, &source)?;
     let grid = Grid::read(&image, keys.resolution, vec2(keys.origin[0], keys.origin[1]), thresholds)
         .map_err(|message| source.wrong("image", format!("{}: {message}", image.display())))?;
     let name = path.file_stem().map_or_else(|| "map".to_string(), |stem| stem.to_string_lossy().into_owned());
     room_map(name, keys, &grid, &source)
+}
+
+/// How the image is read, where that can be.
+fn thresholds(keys: &MapFile, source: &Source) -> Result<Thresholds, WorldError> {
+    let (occupied, free) = (keys.occupied_thresh, keys.free_thresh);
+    for (name, value) in [("occupied_thresh", occupied), ("free_thresh", free)] {
+        if !(0.0..=1.0).contains(&value) {
+            return Err(source.wrong(name, format!("{value} is no share of darkness; give 0 to 1")));
+        }
+    }
+    if free > occupied {
+        let message = format!("{free} is above `occupied_thresh` {occupied}; by that a cell could be both");
+        return Err(source.wrong("free_thresh", message));
+    }
+    let named = |name: &String| {
+        let unknown = || source.wrong("mode", format!("`{name}` is none; trinary, scale and raw are"));
+        Mode::from_name(name).ok_or_else(unknown)
+    };
+    let mode = keys.mode.as_ref().map_or(Ok(Mode::Trinary), named)?;
+    Ok(Thresholds { mode, occupied, free, negate: keys.negate.is_some_and(Negate::is_set) })
 }
 
 fn parse(text: &str, file: &str) -> Result<MapFile, WorldError> {
@@ -196,6 +231,19 @@ mod tests {
         let map = loaded(&yaml).expect("a room map");
         assert_eq!((map.rooms.len(), map.rooms[0].name.as_str()), (1, "room"));
         assert!(map.room_at(map.start.position()).is_some());
+    }
+
+    #[test]
+    fn modes_and_thresholds_that_cannot_be_are_named() {
+        let error = |from: &str, to: &str| loaded(&YAML.replace(from, to)).expect_err("wrong");
+        assert!(error("negate: 0", "negate: 0\nmode: sepia").contains("mode: `sepia` is none; trinary, scale and raw"));
+        assert!(
+            error("free_thresh: 0.196", "free_thresh: 0.7").contains("free_thresh: 0.7 is above `occupied_thresh`")
+        );
+        assert!(error("occupied_thresh: 0.65", "occupied_thresh: 65").contains("occupied_thresh: 65 is no share"));
+        assert!(error("resolution: 0.1", "resolution: 1e-300").contains("resolution: must be 0.005 to 1 m a cell"));
+        assert!(error("origin: [-1.0, -1.0", "origin: [.inf, -1.0").contains("origin: must be numbers of metres"));
+        assert!(loaded(&YAML.replace("negate: 0", "negate: false\nmode: Trinary")).is_ok());
     }
 
     #[test]

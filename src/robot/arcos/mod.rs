@@ -9,3 +9,4 @@ pub mod client;
 pub mod codec;
 pub mod line;
 pub mod parameters;
+pub mod standby;

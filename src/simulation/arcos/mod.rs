@@ -13,5 +13,5 @@ mod session;
 
 pub use dry_line::DryLine;
 pub use memory_line::MemoryLine;
-pub use serve::{ServeAddress, serve};
+pub use serve::{Place, ServeAddress, serve, serve_at};
 pub use session::{Heard, Server, ServerSettings};

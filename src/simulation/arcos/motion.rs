@@ -1,6 +1,7 @@
 //! What the motion commands mean: set-points, limits, and the velocity of the next step.
 
 use crate::geometry::wrap_angle;
+use crate::robot::p3dx;
 
 /// The simulated base integrates in steps of this, seconds.
 pub const STEP_S: f64 = 0.02;
@@ -23,7 +24,7 @@ enum Turn {
     Heading(f64),
 }
 
-/// Limits in force: m/s, m/s², rad/s, rad/s².
+/// Limits in force, those the base can reach: m/s, m/s², rad/s, rad/s².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Fastest, also the speed of MOVE.
@@ -42,8 +43,15 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        let turn = 100_f64.to_radians();
-        Self { speed: 0.75, acceleration: 0.3, braking: 0.3, turn, turn_acceleration: turn, turn_braking: turn }
+        let turn = p3dx::BODY.turn_rad_s;
+        Self {
+            speed: p3dx::BODY.speed_m_s,
+            acceleration: 0.3,
+            braking: 0.3,
+            turn,
+            turn_acceleration: turn,
+            turn_braking: turn,
+        }
     }
 }
 

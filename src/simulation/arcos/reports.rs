@@ -58,7 +58,7 @@ impl Server {
         let status = self.base.status();
         let stall = u8::from(status.stalled);
         let middle = u8::from(status.bumped) << 3;
-        let backward = self.motion.is_backward();
+        let backward = self.hit_backward;
         (stall | if backward { middle } else { 0 }, stall | if backward { 0 } else { middle })
     }
 
@@ -100,8 +100,8 @@ impl Server {
             subclass: text(self.settings.parameters.subclass),
             serial: text("simulated"),
             four_motors: Some(0),
-            turn_top: Some(500),
-            speed_top: Some(2200),
+            turn_top: deg(p3dx::BODY.turn_rad_s),
+            speed_top: mm(p3dx::BODY.speed_m_s),
             turn_acceleration_top: deg(p3dx::EMERGENCY_TURN_BRAKING_RAD_S2),
             acceleration_top: mm(p3dx::EMERGENCY_BRAKING_M_S2),
             pwm_max: Some(500),

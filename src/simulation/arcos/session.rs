@@ -10,7 +10,7 @@ use super::motion::{Motion, STEP_S};
 use crate::geometry::Pose;
 use crate::robot::arcos::codec::{Command, Counters, Decoder, Io, Packet, number};
 use crate::robot::arcos::parameters::Parameters;
-use crate::robot::{MobileBase, RobotError};
+use crate::robot::{MobileBase, RobotError, p3dx};
 use crate::simulation::base::{SimulatedBase, Truth};
 
 /// What a served robot is set to.
@@ -80,6 +80,8 @@ pub struct Server {
     pub(super) travelled: (f64, f64),
     baud_asked: Option<u32>,
     stopped_by_watchdog: bool,
+    /// It was going backward when it touched what it touches.
+    pub(super) hit_backward: bool,
     log: Vec<String>,
 }
 
@@ -108,6 +110,7 @@ impl Server {
             travelled: (0.0, 0.0),
             baud_asked: None,
             stopped_by_watchdog: false,
+            hit_backward: false,
             log: Vec::new(),
         }
     }
@@ -223,6 +226,7 @@ impl Server {
         }
         let (linear, angular) = self.motion.step(held, self.own_pose().heading);
         let before = self.base.pose();
+        let (was_bumped, speed) = (self.base.status().bumped, self.base.velocity().0);
         if self.motion.is_emergency() {
             self.base.brake(STEP_S);
             if self.base.velocity() == (0.0, 0.0) {
@@ -230,6 +234,9 @@ impl Server {
             }
         } else {
             self.base.drive(linear, angular, STEP_S)?;
+        }
+        if self.base.status().bumped && !was_bumped {
+            self.hit_backward = if speed == 0.0 { self.motion.is_backward() } else { speed < 0.0 };
         }
         let ahead = before.to_local(self.base.pose().position()).x;
         self.motion.moved(ahead);
@@ -277,18 +284,33 @@ impl Server {
     /// Motors are off after OPEN, whatever they were before, and settings are what they were made with.
     fn open(&mut self) {
         self.state = State::Open;
-        self.motors = false;
+        (self.motors, self.sonar) = (false, true);
         self.motion = Motion::default();
         self.next_sip = self.clock;
         self.log.push("a client has opened the robot".to_string());
     }
 
+    /// The line to the client is gone: nobody drives the robot any more.
+    pub fn hang_up(&mut self, why: &str) {
+        self.decoder.clear();
+        if self.state == State::Open {
+            self.end_session();
+            self.log.push(format!("{why}: stopped"));
+        }
+        self.state = State::Sync(0);
+        self.output.clear();
+    }
+
     fn close(&mut self) {
+        self.end_session();
+        self.log.push("the client has closed the robot".to_string());
+    }
+
+    fn end_session(&mut self) {
         self.motion.stop();
         self.motors = false;
         self.extras = Extras::default();
         self.state = State::Sync(0);
-        self.log.push("the client has closed the robot".to_string());
     }
 
     fn obey(&mut self, command: &Command) {
@@ -338,8 +360,8 @@ impl Server {
             number::DCHEAD => self.motion.turn_on(radians, heading),
             number::STOP => self.motion.stop(),
             number::E_STOP | number::QSTOP => self.motion.stop_in_emergency(),
-            number::SETV => self.motion.limits.speed = metres.abs(),
-            number::SETRV => self.motion.limits.turn = radians.abs(),
+            number::SETV => self.motion.limits.speed = metres.abs().min(p3dx::BODY.speed_m_s),
+            number::SETRV => self.motion.limits.turn = radians.abs().min(p3dx::BODY.turn_rad_s),
             number::SETA if metres > 0.0 => self.motion.limits.acceleration = metres,
             number::SETA if metres < 0.0 => self.motion.limits.braking = -metres,
             number::SETRA if radians > 0.0 => self.motion.limits.turn_acceleration = radians,

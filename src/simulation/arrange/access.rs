@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 use crate::behavior::{Clearances, grid_of};
-use crate::catalogue::Shape;
+use crate::catalogue::FurnitureShape;
 use crate::geometry::{Cell, ClearanceGrid, Vec2, vec2};
 use crate::map::RoomMap;
 use crate::robot::p3dx;
@@ -44,7 +44,7 @@ fn holds_something(scene: &Scene, item: &Item) -> bool {
 }
 
 fn is_table(item: &Item) -> bool {
-    matches!(item.kind().shape, Shape::Table | Shape::RoundTable | Shape::HexagonTable)
+    matches!(item.kind().shape, FurnitureShape::Table | FurnitureShape::RoundTable | FurnitureShape::HexagonTable)
 }
 
 fn is_accessible(item: &Item, grid: &ClearanceGrid, rooms: &ClearanceGrid, reached: &Reached, to_turn: f64) -> bool {

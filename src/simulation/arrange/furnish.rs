@@ -1,9 +1,9 @@
 //! Furnishes rooms piece by piece: random places, taken when they are free and fit a wish.
 
-use super::Dice;
 use super::standing_room::{degrees, is_free};
 use crate::geometry::{Polygon, Pose, Vec2, vec2};
 use crate::map::RoomMap;
+use crate::simulation::Dice;
 use crate::simulation::{Item, PlacedObject, Scene};
 
 /// Places tried before a piece is given up.

@@ -5,7 +5,6 @@
 //! The same seed makes the same scene.
 
 pub mod access;
-mod dice;
 mod furnish;
 mod new_home;
 mod rearrange;
@@ -13,7 +12,6 @@ pub mod relations;
 mod standing_room;
 mod stock;
 
-pub use dice::Dice;
 pub use furnish::{Furnisher, Spot};
 pub use new_home::{RoomPlan, home_of_rooms, new_home};
 pub use rearrange::{Relations, rearranged};

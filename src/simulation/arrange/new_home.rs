@@ -4,11 +4,12 @@ use std::f64::consts::PI;
 
 use super::access::everything_is_accessible;
 use super::stock::{Group, PORTABLE, ROOMS};
-use super::{Dice, Furnisher, Spot};
+use super::{Furnisher, Spot};
 use crate::catalogue::Holds;
 use crate::geometry::Pose;
 use crate::map::{Door, FORMAT_VERSION, Room, RoomMap};
 use crate::record::Direction;
+use crate::simulation::Dice;
 use crate::simulation::{Item, Scene};
 
 /// How often a home that leaves the robot no way is made anew.

@@ -3,9 +3,10 @@
 use super::access::everything_is_accessible;
 use super::relations::{Part, RELATED_M, Standing, part, standing};
 use super::standing_room::{is_free, rounded};
-use super::{Dice, Furnisher, Spot};
+use super::{Furnisher, Spot};
 use crate::geometry::{Pose, vec2};
 use crate::map::RoomMap;
+use crate::simulation::Dice;
 use crate::simulation::{Item, Scene};
 
 /// What becomes of the relations.
@@ -66,8 +67,8 @@ impl<'a> Walk<'a> {
             let first = dice.below(self.scene.furniture.len());
             let moved = if dice.chance(0.4) { self.group(first) } else { vec![first] };
             let spread = if dice.chance(0.3) { 0.8 } else { 0.25 };
-            let by = vec2(dice.normal(spread), dice.normal(spread));
-            let turn = dice.normal(4.0);
+            let by = vec2(dice.normal(0.0, spread), dice.normal(0.0, spread));
+            let turn = dice.normal(0.0, 4.0);
             let before: Vec<Item> = moved.iter().map(|&i| self.scene.furniture[i].clone()).collect();
             for &i in &moved {
                 let item = &mut self.scene.furniture[i];

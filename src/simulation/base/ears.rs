@@ -1,9 +1,9 @@
 //! The sixteen sonars, fired one after another, with what they mishear.
 
 use super::Obstacles;
-use super::dice::Dice;
 use crate::geometry::{Pose, vec2};
 use crate::robot::{SonarReading, p3dx};
+use crate::simulation::Dice;
 use crate::simulation::Noise;
 
 /// Sonars of one array; the front one and the rear one fire by turns side by side.
@@ -48,7 +48,7 @@ impl Ears {
 fn misheard(heard: Option<f64>, noise: &Noise, dice: &mut Dice) -> f64 {
     // Drawn whatever becomes of them, so that one reading does not shift the next one's luck.
     let (missed, crosstalk, shorter) = (dice.share(), dice.share(), dice.share());
-    let error = dice.normal(1.0);
+    let error = dice.normal(0.0, 1.0);
     let heard = heard.filter(|_| missed >= noise.sonar_miss).unwrap_or(p3dx::SONAR_RANGE_M);
     if crosstalk < noise.sonar_crosstalk {
         return (heard * shorter).max(RINGING_M);

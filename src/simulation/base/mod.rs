@@ -4,9 +4,9 @@
 //! is, what it touched – is read from a [`Truth`] handle, which only a judge
 //! and the simulated eyes hold.
 
-mod dice;
 mod ears;
 mod obstacles;
+mod orders;
 mod simulated_base;
 mod wheels;
 

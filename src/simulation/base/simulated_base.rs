@@ -4,12 +4,12 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::Obstacles;
-use super::dice::Dice;
 use super::ears::Ears;
+use super::orders::Orders;
 use super::wheels::{Wheels, moved};
 use crate::geometry::{Pose, angle_between, wrap_angle};
 use crate::robot::{Body, MobileBase, RobotError, SonarReading, Status, p3dx};
-use crate::simulation::Noise;
+use crate::simulation::{Dice, Noise};
 
 /// Integration step, seconds.
 const STEP_S: f64 = 0.02;
@@ -23,6 +23,8 @@ const SLACK_MARGIN_M: f64 = 0.005;
 const MOST_SLACK_M: f64 = 0.02;
 /// A robot that touched something is free again at this distance, metres.
 const FREE_AGAIN_M: f64 = 0.02;
+/// Keeps the robot's numbers apart from those of its eyes, which are drawn from the record's own stream.
+const ROBOT: u64 = 0x726f_626f_7400_0000;
 
 /// What is true of the simulated robot.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,6 +46,7 @@ pub struct SimulatedBase {
     odometry: Pose,
     velocity: (f64, f64),
     steps: u64,
+    orders: Orders,
     wheels: Wheels,
     ears: Ears,
     compass_bias_rad: f64,
@@ -65,14 +68,14 @@ impl SimulatedBase {
 
     /// A robot at rest that believes to be at `start`; its luck is drawn from `stream` under `seed`.
     pub fn with_noise(obstacles: Obstacles, start: Pose, noise: Noise, seed: u64, stream: u64) -> Self {
-        let mut dice = Dice::new(seed, stream);
+        let mut dice = Dice::new(seed, stream ^ ROBOT);
         let pose = Pose::new(
-            start.x + dice.normal(noise.start_m),
-            start.y + dice.normal(noise.start_m),
-            wrap_angle(start.heading + dice.normal(noise.start_rad)),
+            start.x + dice.error(noise.start_m),
+            start.y + dice.error(noise.start_m),
+            wrap_angle(start.heading + dice.error(noise.start_rad)),
         );
         let wheels = Wheels::new(&noise, &mut dice);
-        let compass_bias_rad = dice.normal(noise.compass_bias_rad);
+        let compass_bias_rad = dice.error(noise.compass_bias_rad);
         let ears = Ears::new(noise, &obstacles, pose, &mut dice);
         let truth = Truth { pose, min_clearance_m: CLEARANCE_REACH_M, ..Truth::default() };
         let mut base = Self {
@@ -81,6 +84,7 @@ impl SimulatedBase {
             odometry: start,
             velocity: (0.0, 0.0),
             steps: 0,
+            orders: Orders::new(&noise, STEP_S),
             wheels,
             ears,
             compass_bias_rad,
@@ -103,19 +107,21 @@ impl SimulatedBase {
 
     /// Brakes as hard as the wheels hold, for `seconds`.
     pub fn brake(&mut self, seconds: f64) {
-        self.live(seconds, |(linear, angular)| {
-            (
+        self.orders.forget();
+        self.live(seconds, |base| {
+            let (linear, angular) = base.velocity;
+            base.velocity = (
                 toward(linear, 0.0, 0.0, p3dx::EMERGENCY_BRAKING_M_S2),
                 toward(angular, 0.0, 0.0, p3dx::EMERGENCY_TURN_BRAKING_RAD_S2),
-            )
+            );
         });
     }
 
-    /// Lives for `seconds`, with the velocity of each step made of the one before.
-    fn live(&mut self, seconds: f64, next: impl Fn((f64, f64)) -> (f64, f64)) {
+    /// Lives for `seconds`, with the velocity of each step made of the one before by `next`.
+    fn live(&mut self, seconds: f64, next: impl Fn(&mut Self)) {
         let steps = (seconds / STEP_S).round() as u64;
         for _ in 0..steps {
-            self.velocity = next(self.velocity);
+            next(self);
             self.step();
             if self.steps.is_multiple_of(STEPS_PER_PING) {
                 let pose = self.truth.borrow().pose;
@@ -126,8 +132,19 @@ impl SimulatedBase {
     }
 
     fn step(&mut self) {
-        let before = self.truth.borrow().pose;
         let (metres, radians) = (self.velocity.0 * STEP_S, self.velocity.1 * STEP_S);
+        // What is held fast by what it touches may still back off without turning, or turn without going on.
+        let ways = [(metres, radians), (metres, 0.0), (0.0, radians)];
+        let tries = if self.status.stalled { 3 } else { 1 };
+        if !ways[..tries].iter().any(|&(metres, radians)| self.goes(metres, radians)) {
+            self.touch();
+        }
+        self.steps += 1;
+    }
+
+    /// Rolls on by so much, unless something is in the way.
+    fn goes(&mut self, metres: f64, radians: f64) -> bool {
+        let before = self.truth.borrow().pose;
         let after = self.wheels.roll(before, metres, radians, &mut self.dice);
         self.truth.borrow_mut().pose = after;
         // No point of the outline moves farther than this in a step.
@@ -137,12 +154,11 @@ impl SimulatedBase {
         self.known_clear_m -= most;
         if self.slack_m <= 0.0 && self.measure_clearance() <= 0.0 {
             self.truth.borrow_mut().pose = before;
-            self.touch();
-        } else {
-            self.odometry = moved(self.odometry, metres, radians);
-            self.truth.borrow_mut().distance_m += rolled;
+            return false;
         }
-        self.steps += 1;
+        self.odometry = moved(self.odometry, metres, radians);
+        self.truth.borrow_mut().distance_m += rolled;
+        true
     }
 
     /// The robot stays where it was, its wheels held fast.
@@ -173,7 +189,7 @@ impl SimulatedBase {
     }
 
     fn read_compass(&mut self) {
-        let error = self.compass_bias_rad + self.dice.normal(self.noise.compass_rad);
+        let error = self.compass_bias_rad + self.dice.error(self.noise.compass_rad);
         self.compass = wrap_angle(self.truth.borrow().pose.heading + error);
     }
 }
@@ -205,12 +221,14 @@ impl MobileBase for SimulatedBase {
     fn drive(&mut self, linear: f64, angular: f64, seconds: f64) -> Result<(), RobotError> {
         let linear = linear.clamp(-p3dx::SPEED_M_S, p3dx::SPEED_M_S);
         let angular = angular.clamp(-p3dx::TURN_RAD_S, p3dx::TURN_RAD_S);
-        self.live(seconds, |velocity| {
+        self.orders.give(self.steps, (linear, angular), &mut self.dice);
+        self.live(seconds, |base| {
+            let ((linear, angular), now) = (base.orders.at(base.steps), base.velocity);
             let turning = p3dx::TURN_ACCELERATION_RAD_S2;
-            (
-                toward(velocity.0, linear, p3dx::ACCELERATION_M_S2, p3dx::BRAKING_M_S2),
-                toward(velocity.1, angular, turning, turning),
-            )
+            base.velocity = (
+                toward(now.0, linear, p3dx::ACCELERATION_M_S2, p3dx::BRAKING_M_S2),
+                toward(now.1, angular, turning, turning),
+            );
         });
         Ok(())
     }

@@ -1,8 +1,8 @@
 //! Two wheels that roll, and the odometry that counts on them.
 
-use super::dice::Dice;
 use crate::geometry::{Pose, wrap_angle};
 use crate::robot::p3dx;
+use crate::simulation::Dice;
 use crate::simulation::Noise;
 
 /// What the wheels of this robot are like, against what its odometry counts on.
@@ -17,9 +17,9 @@ pub(super) struct Wheels {
 
 impl Wheels {
     pub(super) fn new(noise: &Noise, dice: &mut Dice) -> Self {
-        let both = 1.0 + dice.normal(noise.wheel_scale);
-        let apart = dice.normal(noise.wheel_mismatch) / 2.0;
-        let track_m = p3dx::TRACK_M * (1.0 + dice.normal(noise.track_scale));
+        let both = 1.0 + dice.error(noise.wheel_scale);
+        let apart = dice.error(noise.wheel_mismatch) / 2.0;
+        let track_m = p3dx::TRACK_M * (1.0 + dice.error(noise.track_scale));
         Self { scale: (both - apart, both + apart), track_m, slip: noise.slip }
     }
 
@@ -27,8 +27,8 @@ impl Wheels {
     pub(super) fn roll(&self, from: Pose, metres: f64, radians: f64, dice: &mut Dice) -> Pose {
         let half_turn = radians * p3dx::TRACK_M / 2.0;
         let (left, right) = ((metres - half_turn) * self.scale.0, (metres + half_turn) * self.scale.1);
-        let left = left + dice.normal(self.slip * left.abs().sqrt());
-        let right = right + dice.normal(self.slip * right.abs().sqrt());
+        let left = left + dice.error(self.slip * left.abs().sqrt());
+        let right = right + dice.error(self.slip * right.abs().sqrt());
         moved(from, (left + right) / 2.0, (right - left) / self.track_m)
     }
 }

@@ -1,7 +1,7 @@
 //! The scene as solids, with what each belongs to.
 
 use super::faces::{Faces, Finish, Point, Texture, bounds_of};
-use crate::catalogue::Shape;
+use crate::catalogue::FurnitureShape;
 use crate::geometry::Vec2;
 use crate::map::RoomMap;
 use crate::simulation::Scene;
@@ -64,10 +64,10 @@ fn shell(map: &RoomMap) -> Faces {
     faces
 }
 
-fn texture_of(shape: Shape) -> Texture {
+fn texture_of(shape: FurnitureShape) -> Texture {
     match shape {
-        Shape::Couch | Shape::Bed => Texture::Cloth,
-        Shape::Lamp => Texture::Plain,
+        FurnitureShape::Couch | FurnitureShape::Bed => Texture::Cloth,
+        FurnitureShape::Lamp => Texture::Plain,
         _ => Texture::Wood,
     }
 }

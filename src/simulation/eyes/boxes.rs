@@ -1,13 +1,11 @@
 //! True boxes as a sensor would give them: noisy, sometimes missed, sometimes called wrongly, sometimes made up.
 
-use rand_chacha::ChaCha8Rng;
-
 use super::truth::TruthEyes;
 use crate::catalogue;
 use crate::geometry::{Pose, Vec2, vec2, wrap_angle};
 use crate::perception::{Eyes, View};
 use crate::record::Detection;
-use crate::simulation::families::Dice;
+use crate::simulation::Dice;
 
 /// A piece in view is not reported in one look of ten.
 const MISSED: f64 = 0.1;
@@ -25,20 +23,20 @@ const SIZE: f64 = 0.05;
 /// `--perception boxes`: the truth with the sensor's noise, misses and confusions.
 pub struct BoxEyes {
     truth: TruthEyes,
-    rng: ChaCha8Rng,
+    dice: Dice,
 }
 
 impl BoxEyes {
-    /// Eyes that spoil what `truth` reports by numbers from `rng`.
-    pub fn new(truth: TruthEyes, rng: ChaCha8Rng) -> Self {
-        Self { truth, rng }
+    /// Eyes that spoil what `truth` reports by `dice`.
+    pub fn new(truth: TruthEyes, dice: Dice) -> Self {
+        Self { truth, dice }
     }
 }
 
 impl Eyes for BoxEyes {
     fn look(&mut self, believed: Pose) -> View {
         let View { furniture, mut objects } = self.truth.look(believed);
-        let dice = &mut Dice::new(&mut self.rng);
+        let dice = &mut self.dice;
         let mut boxes: Vec<Detection> = furniture
             .into_iter()
             .filter_map(|truly| (!dice.chance(MISSED)).then(|| spoilt(truly, believed, dice)))

@@ -15,7 +15,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::base::Truth;
 use super::camera::Kinect;
-use super::{Home, Perception, Settings};
+use super::{Dice, Home, Perception, TrialSettings};
 use crate::geometry::Pose;
 use crate::perception::Eyes;
 use boxes::BoxEyes;
@@ -23,7 +23,7 @@ use rendered::{CameraEyes, MaskEyes, SimulatedKinect};
 use truth::TruthEyes;
 
 /// The eyes that the settings ask for, on the robot whose truth is given.
-pub(super) fn eyes(home: &Home, settings: &Settings, stream: u64, truth: Rc<RefCell<Truth>>) -> Box<dyn Eyes> {
+pub(super) fn eyes(home: &Home, settings: &TrialSettings, stream: u64, truth: Rc<RefCell<Truth>>) -> Box<dyn Eyes> {
     let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
     rng.set_stream(stream);
     let ideal = |truth| TruthEyes::new(&home.map, home.shared_scene(), home.camera(), truth);
@@ -31,7 +31,7 @@ pub(super) fn eyes(home: &Home, settings: &Settings, stream: u64, truth: Rc<RefC
     let kinect = |truth, rng| SimulatedKinect::new(&home.map, &home.scene, mounted, truth, rng);
     match settings.perception {
         Perception::Truth => Box::new(ideal(truth)),
-        Perception::Boxes => Box::new(BoxEyes::new(ideal(truth), rng)),
+        Perception::Boxes => Box::new(BoxEyes::new(ideal(truth), Dice::new(settings.seed, stream))),
         Perception::Masks => Box::new(MaskEyes::new(kinect(truth, rng), home.map.clone(), &home.scene)),
         Perception::Camera => Box::new(CameraEyes::new(kinect(truth, rng), home.map.clone())),
     }

@@ -1,8 +1,8 @@
 //! Beds: a mattress on a frame, head at the rear.
 
-use super::dice::Dice;
 use super::finishes::{linen, metal, shade, upholstered, wooden};
 use super::parts::{block, cushion, legs};
+use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Frustum};
 
 /// A bed for one or two, with or without headboard and footboard; its foot is its front.

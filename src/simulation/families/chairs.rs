@@ -1,9 +1,9 @@
 //! Dining chairs, office chairs and stools.
 
-use super::dice::Dice;
 use super::finishes::{metal, upholstered, wooden};
 use super::parts::{Span, bar, block, cushion, leaning, legs, round};
 use crate::geometry::vec2;
+use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Frustum};
 
 /// A chair for a table or a desk.

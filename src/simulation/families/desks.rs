@@ -1,9 +1,9 @@
 //! Desks: a top on legs or panels, with drawers, a back panel, a rack.
 
-use super::dice::Dice;
 use super::drawers::fronts;
 use super::finishes::{metal, shade, wooden};
 use super::parts::{block, legs};
+use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Frustum};
 
 /// A desk; its user sits before +x.

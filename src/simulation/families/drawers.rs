@@ -1,8 +1,8 @@
 //! Drawer fronts.
 
-use super::dice::Dice;
 use super::finishes::{metal, shade};
 use super::parts::{Span, block};
+use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Frustum};
 
 /// Drawer fronts with knobs on the face at x, standing out a little.

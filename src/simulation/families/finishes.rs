@@ -1,7 +1,7 @@
 //! Colours and patterns as furniture has them.
 
-use super::dice::Dice;
 use crate::catalogue::Color;
+use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Texture};
 
 const WOODS: [Color; 8] = [

@@ -1,9 +1,9 @@
 //! Lamps on the floor and on tables.
 
-use super::dice::Dice;
 use super::finishes::{gaudy, linen, metal, shade, wooden};
 use super::parts::{Span, bar, round};
 use crate::geometry::vec2;
+use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Frustum};
 
 /// A floor lamp.

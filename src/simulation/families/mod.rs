@@ -7,18 +7,15 @@
 //! training data, and resemble no one maker's models.
 //!
 //! ```
-//! use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
-//! use spatial_fetch::simulation::families;
+//! use spatial_fetch::simulation::{Dice, families};
 //!
-//! let mut rng = ChaCha8Rng::seed_from_u64(1);
-//! let couch = families::sample("couch", &mut rng).expect("a family");
+//! let couch = families::sample("couch", &mut Dice::new(1, 0)).expect("a family");
 //! assert!(couch.size.width > couch.size.length);
 //! ```
 
 mod beds;
 mod chairs;
 mod desks;
-mod dice;
 mod drawers;
 mod finishes;
 mod lamps;
@@ -28,12 +25,10 @@ mod storage;
 mod tables;
 mod vanity;
 
-use rand_chacha::ChaCha8Rng;
-
-pub use dice::Dice;
 pub(super) use finishes::gaudy;
 pub(super) use parts::sided;
 
+use super::Dice;
 use super::camera::Frustum;
 use crate::catalogue::{Orientation, Size};
 use crate::geometry::{Polygon, Vec2, vec2};
@@ -79,8 +74,7 @@ impl Piece {
 }
 
 /// A random piece of a category that has a family; nothing for any other name.
-pub fn sample(category: &str, rng: &mut ChaCha8Rng) -> Option<Piece> {
-    let dice = &mut Dice::new(rng);
+pub fn sample(category: &str, dice: &mut Dice) -> Option<Piece> {
     let facing = |name, parts| Some(Piece::new(name, Orientation::Facing, parts));
     match category {
         "table" => Some(Piece::new("table", Orientation::ShortEdge, tables::table(dice))),
@@ -106,17 +100,15 @@ pub fn sample(category: &str, rng: &mut ChaCha8Rng) -> Option<Piece> {
 
 #[cfg(test)]
 mod tests {
-    use rand_chacha::rand_core::SeedableRng;
-
     use super::*;
     use crate::catalogue::FAMILIES;
 
     #[test]
     fn every_family_makes_pieces_of_a_size_that_fits_a_home() {
-        let mut rng = ChaCha8Rng::seed_from_u64(7);
+        let mut dice = Dice::new(7, 0);
         for category in FAMILIES {
             for _ in 0..200 {
-                let piece = sample(category, &mut rng).expect(category);
+                let piece = sample(category, &mut dice).expect(category);
                 let Size { length, width, height } = piece.size;
                 assert!((0.15..3.2).contains(&length), "{category} {length} long");
                 assert!((0.15..3.6).contains(&width), "{category} {width} wide");
@@ -128,9 +120,9 @@ mod tests {
 
     #[test]
     fn no_two_pieces_of_a_family_are_the_same() {
-        let mut rng = ChaCha8Rng::seed_from_u64(7);
+        let mut dice = Dice::new(7, 0);
         let mut widths: Vec<f64> =
-            (0..50).filter_map(|_| sample("table", &mut rng)).map(|piece| piece.size.width).collect();
+            (0..50).filter_map(|_| sample("table", &mut dice)).map(|piece| piece.size.width).collect();
         widths.sort_by(f64::total_cmp);
         widths.dedup();
         assert!(widths.len() > 40, "{}", widths.len());
@@ -138,9 +130,9 @@ mod tests {
 
     #[test]
     fn a_chair_has_its_back_behind_its_seat() {
-        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        let mut dice = Dice::new(3, 0);
         for _ in 0..50 {
-            let chair = sample("chair", &mut rng).expect("a family");
+            let chair = sample("chair", &mut dice).expect("a family");
             let highest = chair.parts.iter().max_by(|a, b| a.high.total_cmp(&b.high)).expect("parts");
             assert!(highest.top.iter().all(|corner| corner.x < 0.0));
         }
@@ -148,6 +140,6 @@ mod tests {
 
     #[test]
     fn what_has_no_family_is_not_made_up() {
-        assert!(sample("piano", &mut ChaCha8Rng::seed_from_u64(1)).is_none());
+        assert!(sample("piano", &mut Dice::new(1, 0)).is_none());
     }
 }

@@ -1,8 +1,8 @@
 //! Armchairs and couches: a seat between arms, before a back.
 
-use super::dice::Dice;
 use super::finishes::{metal, shade, upholstered, wooden};
 use super::parts::{Span, block, cushion, leaning, legs};
+use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Frustum};
 
 /// The measures of an upholstered seat.

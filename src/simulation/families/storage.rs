@@ -1,10 +1,10 @@
 //! Wardrobes, dressers, shelves, cabinets, tv stands and nightstands.
 
-use super::dice::Dice;
 use super::drawers::fronts;
 use super::finishes::{gaudy, metal, shade, wooden};
 use super::parts::{Span, block, legs};
 use super::vanity;
+use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Frustum};
 
 /// Half a length, half a width, and the height of a body.

@@ -1,9 +1,9 @@
 //! Tables of all shapes and heights.
 
-use super::dice::Dice;
 use super::finishes::{metal, shade, wooden};
 use super::parts::{Span, bar, block, legs, round, sided};
 use crate::geometry::vec2;
+use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Frustum};
 
 /// The outline of a top.

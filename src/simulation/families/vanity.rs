@@ -1,10 +1,10 @@
 //! Dressing tables, and the mirrors on them and on chests of drawers.
 
-use super::dice::Dice;
 use super::drawers::fronts;
 use super::finishes::{shade, wooden};
 use super::parts::{block, legs, sided};
 use crate::geometry::vec2;
+use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Frustum, Texture};
 
 /// A narrow table with drawers under its top and a mirror over its rear.

@@ -16,11 +16,11 @@ pub(super) struct Bvh {
 struct Node {
     low: Point,
     high: Point,
-    kind: Kind,
+    content: Content,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-enum Kind {
+enum Content {
     /// First triangle and one past the last.
     Leaf(usize, usize),
     /// The second child; the first is the next node.
@@ -50,9 +50,9 @@ impl Bvh {
             if !enters(node, origin, inverse, limit) {
                 continue;
             }
-            match node.kind {
-                Kind::Fork(second) => open.extend([second, at + 1]),
-                Kind::Leaf(first, end) => {
+            match node.content {
+                Content::Fork(second) => open.extend([second, at + 1]),
+                Content::Leaf(first, end) => {
                     for triangle in &self.triangles[first..end] {
                         if let Some(hit) = meet(triangle, origin, direction)
                             && best.is_none_or(|(t, _)| hit.0 < t)
@@ -73,7 +73,7 @@ fn build(triangles: &mut [[Point; 3]], first: usize, end: usize, nodes: &mut Vec
     let own = &mut triangles[first..end];
     let (low, high) = own.iter().flatten().fold(none, |(low, high), c| (low.inf(c), high.sup(c)));
     let at = nodes.len();
-    nodes.push(Node { low, high, kind: Kind::Leaf(first, end) });
+    nodes.push(Node { low, high, content: Content::Leaf(first, end) });
     if own.len() <= LEAF {
         return;
     }
@@ -82,7 +82,7 @@ fn build(triangles: &mut [[Point; 3]], first: usize, end: usize, nodes: &mut Vec
     let half = own.len() / 2;
     own.select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)));
     build(triangles, first, first + half, nodes);
-    nodes[at].kind = Kind::Fork(nodes.len());
+    nodes[at].content = Content::Fork(nodes.len());
     build(triangles, first + half, end, nodes);
 }
 

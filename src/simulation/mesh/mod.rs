@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::catalogue::Size;
 use crate::geometry::{Polygon, Vec2, vec2};
+use crate::limits::MESH_LAYERS;
 use crate::map::error::WorldError;
 use bvh::Bvh;
 
@@ -99,6 +100,12 @@ impl Mesh {
         if !extent.iter().all(|v| v.is_finite() && *v > 0.0) {
             return Err("has no extent in one of its axes; is it a solid piece of furniture?".to_string());
         }
+        // Triangles that lie upon each other are all drawn, in every picture.
+        let area: f64 = triangles.iter().map(|[a, b, c]| (b - a).cross(&(c - a)).norm() / 2.0).sum();
+        let surface = 2.0 * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x);
+        if area > MESH_LAYERS.value as f64 * surface {
+            return Err(MESH_LAYERS.exceeded(&format!("{:.0}", area / surface)));
+        }
         let origin = Point::new((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, low.z);
         triangles.iter_mut().flatten().for_each(|corner| *corner -= origin);
         let outline = Polygon::hull(triangles.iter().flatten().map(|c| vec2(c.x, c.y)).collect());
@@ -160,6 +167,23 @@ pub(super) mod tests {
     fn turning_the_front_swaps_length_and_width() {
         let size = loaded(BOX, 90.0).expect("a mesh").size();
         assert!((size.length - 2.0).abs() < 1e-9 && (size.width - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn faces_upon_each_other_and_more_faces_than_are_taken_are_refused() {
+        let layers = BOX.to_string() + &"f 1 2 3\n".repeat(20_000);
+        let error = loaded(&layers, 0.0).expect_err("layers");
+        assert!(error.contains("times the area of the box in triangles are more than the 50"), "{error}");
+        let many = BOX.to_string() + &"f 1 2 3\n".repeat(1_000_001);
+        assert!(loaded(&many, 0.0).expect_err("many").contains("1000013 triangles are more than the 1000000"));
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_mesh_without_an_end_is_refused() {
+        let mut file = MeshFile { file: "/dev/zero".into(), up: Up::Y, scale: 1.0, front_deg: 0.0, loaded: None };
+        let error = file.load(Path::new("home.json"), "box-1").expect_err("endless").to_string();
+        assert!(error.contains("more than the 67108864 bytes that are taken of a mesh file"), "{error}");
     }
 
     #[test]

@@ -2,8 +2,9 @@
 
 use crate::catalogue::Orientation;
 use crate::geometry::{Pose, vec2};
+use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Frustum, Texture};
-use crate::simulation::families::{Dice, Piece, gaudy, sided};
+use crate::simulation::families::{Piece, gaudy, sided};
 
 /// The category of such things; the detector has no name for them.
 const CLUTTER: &str = "clutter";

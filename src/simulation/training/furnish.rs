@@ -1,16 +1,15 @@
 //! What stands in which room.
 
-use rand_chacha::ChaCha8Rng;
-
 use super::clutter;
 use super::room::FurnishedRoom;
 use crate::catalogue;
 use crate::catalogue::OBJECTS;
 use crate::catalogue::Orientation;
 use crate::geometry::Pose;
+use crate::simulation::Dice;
 use crate::simulation::camera::{Finish, Frustum, Texture};
 use crate::simulation::families;
-use crate::simulation::families::{Dice, Piece};
+use crate::simulation::families::Piece;
 
 /// What can stand at a wall in each kind of room, and the chance of each.
 const AT_WALLS: [&[(&str, f64)]; 4] = [
@@ -24,9 +23,9 @@ const AT_WALLS: [&[(&str, f64)]; 4] = [
 const TALL_M: f64 = 0.2;
 
 /// A room for sleeping, living, dining or working, with some pieces that belong and some that need not.
-pub(super) fn furnished_room(rng: &mut ChaCha8Rng) -> FurnishedRoom {
-    let mut furnisher = Furnisher::new(rng);
-    let kind = furnisher.dice().whole(0, 3);
+pub(super) fn furnished_room(dice: &mut Dice) -> FurnishedRoom {
+    let mut furnisher = Furnisher::new(dice);
+    let kind = furnisher.dice.whole(0, 3);
     match kind {
         0 => furnisher.sleeping(),
         1 => furnisher.living(),
@@ -34,12 +33,12 @@ pub(super) fn furnished_room(rng: &mut ChaCha8Rng) -> FurnishedRoom {
         _ => furnisher.working(),
     }
     for (category, chance) in AT_WALLS[kind] {
-        if furnisher.dice().chance(*chance) {
+        if furnisher.dice.chance(*chance) {
             furnisher.at_wall(category);
         }
     }
-    for _ in 0..furnisher.dice().whole(0, 3) {
-        let category = furnisher.dice().pick(&catalogue::FAMILIES);
+    for _ in 0..furnisher.dice.whole(0, 3) {
+        let category = furnisher.dice.pick(&catalogue::FAMILIES);
         furnisher.in_the_open(category);
     }
     furnisher.set_clutter_on_floor();
@@ -49,90 +48,84 @@ pub(super) fn furnished_room(rng: &mut ChaCha8Rng) -> FurnishedRoom {
 }
 
 struct Furnisher<'r> {
-    rng: &'r mut ChaCha8Rng,
+    dice: &'r mut Dice,
     room: FurnishedRoom,
 }
 
 impl<'r> Furnisher<'r> {
-    fn new(rng: &'r mut ChaCha8Rng) -> Self {
-        let dice = &mut Dice::new(rng);
+    fn new(dice: &'r mut Dice) -> Self {
         let half = (dice.between(1.5, 3.6), dice.between(1.4, 3.0));
         let room = FurnishedRoom { half, height: dice.between(2.3, 3.0), placed: Vec::new() };
-        Self { rng, room }
-    }
-
-    fn dice(&mut self) -> Dice<'_> {
-        Dice::new(self.rng)
+        Self { dice, room }
     }
 
     fn at_wall(&mut self, category: &str) -> Option<usize> {
-        let piece = families::sample(category, self.rng)?;
-        self.room.at_wall(piece, &mut Dice::new(self.rng))
+        let piece = families::sample(category, self.dice)?;
+        self.room.at_wall(piece, self.dice)
     }
 
     fn in_the_open(&mut self, category: &str) -> Option<usize> {
-        let piece = families::sample(category, self.rng)?;
-        self.room.in_the_open(piece, &mut Dice::new(self.rng))
+        let piece = families::sample(category, self.dice)?;
+        self.room.in_the_open(piece, self.dice)
     }
 
     fn sleeping(&mut self) {
         let Some(bed) = self.at_wall("bed") else { return };
-        for _ in 0..self.dice().whole(0, 2) {
-            if let Some(piece) = families::sample("nightstand", self.rng) {
-                self.room.beside(bed, piece, &mut Dice::new(self.rng));
+        for _ in 0..self.dice.whole(0, 2) {
+            if let Some(piece) = families::sample("nightstand", self.dice) {
+                self.room.beside(bed, piece, self.dice);
             }
         }
     }
 
     fn living(&mut self) {
-        let at_wall = self.dice().chance(0.6);
+        let at_wall = self.dice.chance(0.6);
         let Some(couch) = (if at_wall { self.at_wall("couch") } else { self.in_the_open("couch") }) else { return };
-        let table = self.dice().pick(&["coffee_table", "coffee_table", "table"]);
-        if self.dice().chance(0.75)
-            && let Some(piece) = families::sample(table, self.rng)
+        let table = self.dice.pick(&["coffee_table", "coffee_table", "table"]);
+        if self.dice.chance(0.75)
+            && let Some(piece) = families::sample(table, self.dice)
         {
-            self.room.before(couch, piece, &mut Dice::new(self.rng));
+            self.room.before(couch, piece, self.dice);
         }
-        for _ in 0..self.dice().whole(0, 2) {
-            let seat = self.dice().pick(&["armchair", "armchair", "couch", "stool"]);
+        for _ in 0..self.dice.whole(0, 2) {
+            let seat = self.dice.pick(&["armchair", "armchair", "couch", "stool"]);
             self.in_the_open(seat);
         }
     }
 
     fn dining(&mut self) {
         if let Some(table) = self.in_the_open("table") {
-            let kind = self.dice().pick(&["chair", "chair", "chair", "stool"]);
-            let seats = self.dice().whole(1, 6);
+            let kind = self.dice.pick(&["chair", "chair", "chair", "stool"]);
+            let seats = self.dice.whole(1, 6);
             self.seat(table, kind, seats);
         }
     }
 
     fn working(&mut self) {
-        let at_wall = self.dice().chance(0.7);
+        let at_wall = self.dice.chance(0.7);
         if let Some(desk) = if at_wall { self.at_wall("desk") } else { self.in_the_open("desk") } {
-            let seats = self.dice().whole(0, 2);
+            let seats = self.dice.whole(0, 2);
             self.seat(desk, "chair", seats);
         }
     }
 
     /// The same seat, so many times, around a table.
     fn seat(&mut self, table: usize, category: &str, seats: usize) {
-        let Some(seat) = families::sample(category, self.rng) else { return };
+        let Some(seat) = families::sample(category, self.dice) else { return };
         for _ in 0..seats {
-            self.room.at_table(table, seat.clone(), &mut Dice::new(self.rng));
+            self.room.at_table(table, seat.clone(), self.dice);
         }
     }
 
     fn set_clutter_on_floor(&mut self) {
-        if self.dice().chance(0.4) {
-            for _ in 0..self.dice().whole(1, 2) {
-                let thing = clutter::on_floor(&mut self.dice());
-                let at_wall = self.dice().chance(0.6);
-                let dice = &mut Dice::new(self.rng);
+        if self.dice.chance(0.4) {
+            for _ in 0..self.dice.whole(1, 2) {
+                let thing = clutter::on_floor(self.dice);
+                let at_wall = self.dice.chance(0.6);
                 if at_wall {
-                    self.room.at_wall(thing, dice)
+                    self.room.at_wall(thing, self.dice)
                 } else {
-                    self.room.in_the_open(thing, dice)
+                    self.room.in_the_open(thing, self.dice)
                 };
             }
         }
@@ -142,10 +135,10 @@ impl<'r> Furnisher<'r> {
         for holder in 0..self.room.placed.len() {
             let category = self.room.placed[holder].piece.category;
             let chance = catalogue::category(category).map_or(0.0, |row| row.clutter);
-            if self.room.placed[holder].on.is_none() && self.dice().chance(chance) {
-                for _ in 0..self.dice().whole(1, 3) {
-                    let thing = clutter::on_furniture(&mut self.dice());
-                    self.room.on_top(holder, thing, false, &mut Dice::new(self.rng));
+            if self.room.placed[holder].on.is_none() && self.dice.chance(chance) {
+                for _ in 0..self.dice.whole(1, 3) {
+                    let thing = clutter::on_furniture(self.dice);
+                    self.room.on_top(holder, thing, false, self.dice);
                 }
             }
         }
@@ -155,23 +148,23 @@ impl<'r> Furnisher<'r> {
     fn set_things_on_tops(&mut self) {
         for holder in 0..self.room.placed.len() {
             let category = self.room.placed[holder].piece.category;
-            if category == "tv_stand" && self.dice().chance(0.6) {
-                let set = television(&mut self.dice());
-                self.room.on_top(holder, set, false, &mut Dice::new(self.rng));
+            if category == "tv_stand" && self.dice.chance(0.6) {
+                let set = television(self.dice);
+                self.room.on_top(holder, set, false, self.dice);
                 continue;
             }
             let Some(lamps) = catalogue::category(category).map(|row| row.lamp).filter(|lamps| *lamps > 0.0) else {
                 continue;
             };
-            if self.dice().chance(lamps)
-                && let Some(lamp) = families::sample("table_lamp", self.rng)
+            if self.dice.chance(lamps)
+                && let Some(lamp) = families::sample("table_lamp", self.dice)
             {
-                self.room.on_top(holder, lamp, false, &mut Dice::new(self.rng));
+                self.room.on_top(holder, lamp, false, self.dice);
                 continue;
             }
-            if self.dice().chance(0.45) {
-                let thing = small_thing(&mut self.dice());
-                self.room.on_top(holder, thing, true, &mut Dice::new(self.rng));
+            if self.dice.chance(0.45) {
+                let thing = small_thing(self.dice);
+                self.room.on_top(holder, thing, true, self.dice);
             }
         }
     }

@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::room::{FurnishedRoom, Placed};
 use crate::geometry::{Polygon, Pose, Vec2, vec2};
-use crate::simulation::families::{Dice, Piece};
+use crate::simulation::Dice;
+use crate::simulation::families::Piece;
 
 /// A thing may be so much larger than what it stands on.
 const OVERHANG: f64 = 1.25;

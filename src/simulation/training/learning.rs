@@ -24,7 +24,7 @@ use crate::perception::parts::Parts;
 use crate::perception::patches::NONE;
 use crate::perception::points::STRIDE;
 use crate::perception::tabletop::things;
-use crate::simulation::families;
+use crate::simulation::{Dice, families};
 
 /// A lower thing on a table is part of the table, metres.
 const LEAST_OWN_HEIGHT_M: f64 = 0.2;
@@ -74,11 +74,11 @@ enum Lesson {
 }
 
 fn sizes(seed: u64) -> Vec<Vec<Size>> {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut dice = Dice::new(seed, 0);
     let mut some = |category: &str| -> Vec<Size> {
         // Lamps stand on the floor or on tables.
         let family = |i: usize| if category == "lamp" && i % 2 == 1 { "table_lamp" } else { category };
-        (0..SIZES).filter_map(|i| families::sample(family(i), &mut rng)).map(|piece| rounded(piece.size)).collect()
+        (0..SIZES).filter_map(|i| families::sample(family(i), &mut dice)).map(|piece| rounded(piece.size)).collect()
     };
     CATEGORIES.iter().map(|category| some(category)).collect()
 }

@@ -22,13 +22,10 @@ mod room;
 mod truth;
 mod viewpoint;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
-
 pub use truth::TrueItem;
 
+use super::Dice;
 use super::camera::{Kinect, KinectFaults, Light};
-use super::families::Dice;
 use crate::frame::RgbdFrame;
 use crate::geometry::Pose;
 use crate::map::RoomMap;
@@ -50,15 +47,13 @@ pub struct TrainingFrame {
 
 /// Frame `index` under `seed`: a room of its own, seen from a place that shows some of its furniture.
 pub fn frame(seed: u64, index: u64) -> TrainingFrame {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    rng.set_stream(index);
+    let mut dice = Dice::new(seed, index);
     loop {
-        let room = furnish::furnished_room(&mut rng);
-        let Some((pose, camera)) = viewpoint::choose(&room, &mut rng) else { continue };
-        let mut dice = Dice::new(&mut rng);
+        let room = furnish::furnished_room(&mut dice);
+        let Some((pose, camera)) = viewpoint::choose(&room, &mut dice) else { continue };
         let kinect = Kinect { camera, faults: faults(&mut dice), light: light(&mut dice) };
         let faces = room.faces(&mut dice);
-        let (rgbd, ids) = kinect.capture_faces(&faces, pose, &mut rng);
+        let (rgbd, ids) = kinect.capture_faces(&faces, pose, dice.numbers());
         let items = truth::items(&room, &kinect, &faces, pose, (&rgbd, &ids));
         if items.iter().any(|item| item.on_item.is_none() && item.visible_px > 1500) {
             return TrainingFrame { rgbd, ids, items, pose, map: room.map() };

@@ -2,8 +2,9 @@
 
 use crate::geometry::{Polygon, Pose, vec2};
 use crate::map::{Room, RoomMap};
+use crate::simulation::Dice;
 use crate::simulation::camera::{Faces, Finish, Texture};
-use crate::simulation::families::{Dice, Piece};
+use crate::simulation::families::Piece;
 
 const FLOORS: [([u8; 3], Texture); 7] = [
     ([168, 142, 112], Texture::Boards),

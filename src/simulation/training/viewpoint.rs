@@ -1,18 +1,15 @@
 //! Where a robot stands to see some of the furniture.
 
-use rand_chacha::ChaCha8Rng;
-
 use super::room::FurnishedRoom;
 use crate::frame::Camera;
 use crate::geometry::{Pose, vec2};
-use crate::simulation::families::Dice;
+use crate::simulation::Dice;
 
 /// The robot keeps this far from walls and furniture, metres.
 const CLEARANCE_M: f64 = 0.3;
 
 /// A pose 0.8–5 m from a piece it looks towards, and a camera on a tower of some height and tilt.
-pub(super) fn choose(room: &FurnishedRoom, rng: &mut ChaCha8Rng) -> Option<(Pose, Camera)> {
-    let dice = &mut Dice::new(rng);
+pub(super) fn choose(room: &FurnishedRoom, dice: &mut Dice) -> Option<(Pose, Camera)> {
     if room.placed.is_empty() {
         return None;
     }

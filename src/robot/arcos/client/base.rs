@@ -5,7 +5,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::{Client, ConnectError, Report, Settings};
+use super::{ArcosSettings, Client, ConnectError, Report};
 use crate::geometry::{Pose, wrap_angle};
 use crate::robot::arcos::line::Line;
 use crate::robot::{Body, Event, MobileBase, RealBase, Remote, RobotError, SonarReading, Status};
@@ -20,6 +20,12 @@ const ENDS_WITHIN: Duration = Duration::from_secs(3);
 struct State {
     start: Pose,
     ask: Option<(f64, f64)>,
+    /// Whether what is asked for is passed over.
+    paused: bool,
+    /// Zero set-points go out before anything else.
+    zero: bool,
+    /// Whether the robot stands.
+    stands: bool,
     report: Report,
     events: Vec<Event>,
     failed: Option<String>,
@@ -80,6 +86,21 @@ impl Remote for Stopper {
         std::mem::take(&mut self.0.lock().events)
     }
 
+    fn pause(&self) {
+        let mut state = self.0.lock();
+        (state.paused, state.zero, state.stands) = (true, true, false);
+        let until = Instant::now() + ENDS_WITHIN;
+        while !(state.stands || state.ended) && Instant::now() < until {
+            let waited = self.0.changed.wait_timeout(state, Duration::from_millis(50));
+            state = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+
+    fn go_on(&self) {
+        let mut state = self.0.lock();
+        (state.paused, state.zero, state.ask) = (false, true, None);
+    }
+
     fn stop(&self) {
         let mut state = self.0.lock();
         state.quit = true;
@@ -93,7 +114,10 @@ impl Remote for Stopper {
 
 impl ArcosBase {
     /// Connects to the robot on `line`, which stands at `start` in the map.
-    pub fn connect(line: Box<dyn Line + Send>, settings: Settings, start: Pose) -> Result<Self, ConnectError> {
+    ///
+    /// # Errors
+    /// When no robot answers, it reports nothing, or its scales are not known.
+    pub fn connect(line: Box<dyn Line + Send>, settings: ArcosSettings, start: Pose) -> Result<Self, ConnectError> {
         let (resume, body) = (settings.resume, settings.body());
         let client = Client::connect(line, settings)?;
         let preflight = client.preflight();
@@ -153,7 +177,12 @@ fn run<L: Line>(mut client: Client<L>, shared: &Shared) {
     loop {
         let quit = {
             let mut state = shared.lock();
-            if let Some((linear, angular)) = state.ask.take() {
+            let zero = std::mem::take(&mut state.zero);
+            let ask = state.ask.take().filter(|_| !zero && !state.paused);
+            if zero {
+                client.zero();
+            }
+            if let Some((linear, angular)) = ask {
                 client.ask(linear, angular);
             }
             state.quit
@@ -164,6 +193,7 @@ fn run<L: Line>(mut client: Client<L>, shared: &Shared) {
         let turned = if quit { Ok(()) } else { client.turn(TURN) };
         let mut state = shared.lock();
         state.report = client.report().clone();
+        state.stands = client.stands() && !state.zero;
         state.events.extend(client.take_events());
         state.ended = quit || turned.is_err();
         state.failed = turned.err().map(|error| match error {
@@ -208,6 +238,14 @@ impl Drop for ArcosBase {
 }
 
 impl MobileBase for ArcosBase {
+    fn age_s(&self) -> f64 {
+        self.report.age_s()
+    }
+
+    fn dead_time_s(&self) -> f64 {
+        self.report.dead_time.as_secs_f64()
+    }
+
     fn body(&self) -> Body {
         self.body
     }

@@ -4,7 +4,7 @@ use std::io;
 use std::time::Duration;
 
 use super::handshake::Handshake;
-use super::{ConnectError, Identity, Odometry, Report, Settings, guarded_speed};
+use super::{ArcosSettings, ConnectError, Identity, Odometry, Report, guarded_speed};
 use crate::geometry::Pose;
 use crate::robot::arcos::codec::{Command, Config, Counters, Decoder, number};
 use crate::robot::arcos::line::Line;
@@ -17,6 +17,13 @@ pub(super) const SPACING: Duration = Duration::from_millis(4);
 const STOP_AGAIN: Duration = Duration::from_millis(20);
 /// A report that comes sooner than this after a command was made before it.
 const HEARS_WITHIN: Duration = Duration::from_millis(120);
+/// A robot that was told something does it after this (measured on robots: 50 to 100 ms).
+const BASE_ANSWERS: Duration = Duration::from_millis(50);
+/// Without a report for this long, or so many of its cycles, the robot is stopped until it reports again.
+const SILENCE: Duration = Duration::from_millis(400);
+const SILENT_CYCLES: u32 = 4;
+/// That a report is late, or what sonars and bumpers forbid, is said at most so often.
+pub(super) const SAY_AGAIN: Duration = Duration::from_secs(5);
 /// A robot with nothing to do hears from us this often.
 const IDLE: Duration = Duration::from_millis(500);
 /// Faults of the line are summed up over this time.
@@ -37,10 +44,12 @@ pub(super) struct Ask {
 pub struct Client<L: Line> {
     pub(super) line: L,
     pub(super) decoder: Decoder,
-    pub(super) settings: Settings,
+    pub(super) settings: ArcosSettings,
     pub(super) identity: Identity,
     pub(super) config: Config,
     pub(super) report: Report,
+    /// From a word to its answer, as found when connecting.
+    pub(super) round_trip: Duration,
     pub(super) sips_before_open: u64,
     pub(super) wants_motors: bool,
     pub(super) parameters: Parameters,
@@ -52,7 +61,14 @@ pub struct Client<L: Line> {
     /// Since when it is told to stand.
     pub(super) zero_at: Duration,
     pub(super) heard_at: Duration,
-    pub(super) guarding: bool,
+    /// Since when sonars and bumpers have been said to have the last word.
+    pub(super) guarding: Option<Duration>,
+    /// When a report was last said to be late.
+    pub(super) late_said: Option<Duration>,
+    /// The robot has not reported for too long to be driven.
+    pub(super) is_silent: bool,
+    /// When the front sonars and the rear ones were last heard.
+    pub(super) sonar_at: [Option<Duration>; 2],
     pub(super) low_battery: bool,
     pub(super) events: Vec<Event>,
     pub(super) summed_up: (Duration, Counters),
@@ -62,9 +78,13 @@ pub struct Client<L: Line> {
 
 impl<L: Line> Client<L> {
     /// Finds the robot, and brings it to stand ready with its motors on.
-    pub fn connect(mut line: L, settings: Settings) -> Result<Self, ConnectError> {
-        let mut decoder = Decoder::default();
-        let shaken = Handshake::new(&mut line, &mut decoder).run();
+    ///
+    /// # Errors
+    /// When no robot answers, it reports nothing, or its scales are not known.
+    pub fn connect(mut line: L, settings: ArcosSettings) -> Result<Self, ConnectError> {
+        let mut decoder = Decoder::patient();
+        let mut handshake = Handshake::new(&mut line, &mut decoder);
+        let (shaken, round_trip) = (handshake.run(), handshake.round_trip());
         let identity = shaken.map_err(|error| ConnectError::Handshake(line.name(), error))?;
         let parameters = settings.model.or_else(|| Parameters::of(&identity.subclass));
         let Some(mut parameters) = parameters else {
@@ -79,7 +99,8 @@ impl<L: Line> Client<L> {
             settings,
             identity,
             config: Config::default(),
-            report: Report::default(),
+            report: Report { dead_time: round_trip + BASE_ANSWERS, ..Report::default() },
+            round_trip,
             sips_before_open: 0,
             wants_motors: false,
             parameters,
@@ -88,7 +109,10 @@ impl<L: Line> Client<L> {
             told_at: now,
             zero_at: now,
             heard_at: now,
-            guarding: false,
+            guarding: None,
+            late_said: None,
+            is_silent: false,
+            sonar_at: [None; 2],
             low_battery: false,
             events: Vec::new(),
             summed_up: (now, Counters::default()),
@@ -153,6 +177,9 @@ impl<L: Line> Client<L> {
     }
 
     /// One turn: takes in what came within `wait`, and sends what is due.
+    ///
+    /// # Errors
+    /// When the line fails, or the robot has been silent too long.
     pub fn turn(&mut self, wait: Duration) -> Result<(), RobotError> {
         if let Some(why) = &self.lost {
             return Err(RobotError::Link(why.clone()));
@@ -188,6 +215,12 @@ impl<L: Line> Client<L> {
         Ok(())
     }
 
+    /// Nothing is asked for any more: zero set-points go out at the next turn, whatever was told before. Time that
+    /// passed unheard, as in a process that was suspended, does not count.
+    pub(super) fn zero(&mut self) {
+        (self.ask, self.told, self.heard_at) = (None, (1, 1), self.line.now());
+    }
+
     /// The velocity that is safe now, mm/s and °/s.
     fn wanted(&mut self) -> (i32, i32) {
         let now = self.line.now();
@@ -199,12 +232,30 @@ impl<L: Line> Client<L> {
             }
             return (0, 0);
         }
+        if self.falls_silent(now) {
+            // What was asked for before the silence is not taken up after it.
+            self.ask = None;
+            return (0, 0);
+        }
         let (speed, why) = guarded_speed(ask.linear, &self.report);
-        let began = !std::mem::replace(&mut self.guarding, why.is_some());
-        if let Some(why) = why.filter(|_| began) {
+        let is_new = self.guarding.is_none_or(|said| now.saturating_sub(said) > SAY_AGAIN);
+        if let Some(why) = why.filter(|_| is_new) {
+            self.guarding = Some(now);
             self.note(why);
         }
         ((speed * 1000.0) as i32, ask.angular.to_degrees().round() as i32)
+    }
+
+    /// Whether the robot has not reported for so long that it would be driven blind; said when it begins.
+    fn falls_silent(&mut self, now: Duration) -> bool {
+        let cycle = Duration::from_millis(u64::from(self.config.sip_cycle_ms.unwrap_or(100)));
+        let silence = SILENCE.max(cycle * SILENT_CYCLES);
+        let is_silent = now.saturating_sub(self.heard_at) > silence;
+        if is_silent && !self.is_silent {
+            self.note(format!("nothing heard for {} ms: stopping until the robot reports again", silence.as_millis()));
+        }
+        self.is_silent = is_silent;
+        is_silent
     }
 
     /// Sends what is due: a velocity each time it is asked for, zero until the robot stands and now and then after it.
@@ -247,7 +298,7 @@ impl<L: Line> Client<L> {
     /// Whether the robot says that it stands, and said so after it was told to.
     pub(super) fn stands(&self) -> bool {
         let (linear, angular) = self.report.velocity;
-        linear.abs() < 0.005 && angular.abs() < 0.01 && self.heard_at > self.zero_at + HEARS_WITHIN
+        linear.abs() < 0.005 && angular.abs() < 0.01 && self.heard_at > self.zero_at + HEARS_WITHIN + self.round_trip
     }
 
     /// Sends a command after a pause for the one before it.
@@ -286,6 +337,14 @@ impl<L: Line> Drop for Client<L> {
 }
 
 impl<L: Line> MobileBase for Client<L> {
+    fn age_s(&self) -> f64 {
+        self.report.age_s()
+    }
+
+    fn dead_time_s(&self) -> f64 {
+        self.report.dead_time.as_secs_f64()
+    }
+
     fn body(&self) -> Body {
         self.settings.body()
     }

@@ -44,7 +44,10 @@ impl<L: Line> Client<L> {
         self.line.reopen().map_err(|error| ConnectError::Line(self.line.name(), error))?;
         self.decoder.clear();
         (self.told, self.wants_motors) = ((0, 0), false);
-        let shaken = Handshake::new(&mut self.line, &mut self.decoder).run();
+        let mut handshake = Handshake::new(&mut self.line, &mut self.decoder);
+        let shaken = handshake.run();
+        self.round_trip = handshake.round_trip();
+        self.sonar_at = [None; 2];
         shaken.map_err(|error| ConnectError::Handshake(self.line.name(), error))?;
         self.heard_at = self.line.now();
         self.set_up()
@@ -71,7 +74,7 @@ impl<L: Line> Client<L> {
     fn say_good_bye(&mut self) -> io::Result<()> {
         self.ask = None;
         self.told = (1, 1);
-        let until = self.line.now() + STANDS_WITHIN;
+        let until = self.line.now() + STANDS_WITHIN + self.round_trip;
         self.steer()?;
         while !self.stands() && self.line.now() < until {
             self.read(TURN)?;

@@ -22,7 +22,10 @@ pub fn guarded_speed(wanted: f64, report: &Report) -> (f64, Option<String>) {
     };
     let watching = report.sonar.iter().filter(|reading| watches(reading.bearing));
     let nearest = watching.map(|reading| reading.range_m).fold(f64::INFINITY, f64::min);
-    let most = (2.0 * BRAKE_M_S2 * (nearest - STOP_M).max(0.0)).sqrt();
+    // It goes on until the command that slows it down has reached it.
+    let going = if ahead { report.velocity.0 } else { -report.velocity.0 }.max(0.0);
+    let late = going * (report.age_s() + report.dead_time.as_secs_f64());
+    let most = (2.0 * BRAKE_M_S2 * (nearest - STOP_M - late).max(0.0)).sqrt();
     if most >= wanted.abs() {
         return (wanted, None);
     }

@@ -1,11 +1,18 @@
 //! What comes from the robot, and what follows from it.
 
+use std::time::Duration;
+
 use super::Client;
+use super::connection::SAY_AGAIN;
 use super::odometry::Taken;
 use crate::robot::arcos::codec::{Config, Packet, Sip};
 use crate::robot::arcos::line::Line;
 use crate::robot::{SonarReading, Status};
 
+/// The sonars before this one look ahead.
+const FIRST_REAR_SONAR: u8 = 8;
+/// An echo older than this, two or three sweeps, is no echo.
+const SONARS_SILENT: Duration = Duration::from_millis(800);
 /// Longer without a packet than this many cycles is told.
 const LATE_CYCLES: f64 = 1.7;
 
@@ -23,7 +30,9 @@ impl<L: Line> Client<L> {
         let now = self.line.now();
         let gap = now.saturating_sub(self.heard_at);
         let cycle = f64::from(self.config.sip_cycle_ms.unwrap_or(100).max(10)) / 1000.0;
-        if self.report.sips > 0 && gap.as_secs_f64() > LATE_CYCLES * cycle {
+        let is_new = self.late_said.is_none_or(|said| now.saturating_sub(said) > SAY_AGAIN);
+        if self.report.sips > 0 && gap.as_secs_f64() > LATE_CYCLES * cycle && is_new {
+            self.late_said = Some(now);
             self.note(format!("no information packet for {} ms", gap.as_millis()));
         }
         self.heard_at = now;
@@ -45,8 +54,10 @@ impl<L: Line> Client<L> {
         report.motors = sip.flags.motors_enabled();
         report.emergency_stop = sip.flags.emergency_stopped();
         report.sips += 1;
+        report.heard_at = now;
         for (number, range) in &sip.sonar {
             let Some((mount, bearing)) = p.sonars.sonar(*number) else { continue };
+            self.sonar_at[usize::from(*number >= FIRST_REAR_SONAR)] = Some(now);
             let reading = SonarReading { mount, bearing, range_m: f64::from(*range) * p.range_m };
             match report.sonar.iter_mut().find(|known| known.bearing == bearing && known.mount == mount) {
                 Some(known) => *known = reading,
@@ -68,9 +79,19 @@ impl<L: Line> Client<L> {
             self.hold("a wheel is stalled");
         } else if self.wants_motors && !self.report.motors {
             self.hold("the motors are disabled");
+        } else if let Some(end) = self.deaf_end() {
+            self.hold(&format!("the {end} sonars have fallen silent"));
         } else if self.settings.resume && self.report.motors && self.report.held.take().is_some() {
             self.note("free again: going on");
         }
+    }
+
+    /// The end whose sonars were heard once and are no more.
+    fn deaf_end(&self) -> Option<&'static str> {
+        let now = self.line.now();
+        let is_deaf = |at: Option<Duration>| at.is_some_and(|at| now.saturating_sub(at) > SONARS_SILENT);
+        let ends = self.sonar_at.into_iter().zip(["front", "rear"]);
+        ends.into_iter().find_map(|(at, end)| is_deaf(at).then_some(end))
     }
 
     /// Holds the robot: no velocity is passed on until someone allows it.

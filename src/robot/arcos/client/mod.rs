@@ -24,7 +24,7 @@ pub use guard::guarded_speed;
 pub use handshake::{HandshakeError, Identity};
 pub use odometry::{Odometry, Taken};
 pub use report::Report;
-pub use settings::Settings;
+pub use settings::ArcosSettings;
 
 /// Why no robot could be had at the end of a line.
 #[derive(Debug, thiserror::Error)]

@@ -32,6 +32,17 @@ pub struct Report {
     pub held: Option<String>,
     /// Time on the line's clock.
     pub at: Duration,
+    /// When the robot last reported.
+    pub heard_at: Duration,
+    /// From a command to the report that shows it, as found when connecting.
+    pub dead_time: Duration,
     /// Information packets so far.
     pub sips: u64,
+}
+
+impl Report {
+    /// Seconds since the robot reported this.
+    pub fn age_s(&self) -> f64 {
+        self.at.saturating_sub(self.heard_at).as_secs_f64()
+    }
 }

@@ -8,7 +8,7 @@ use crate::robot::p3dx::{self, SonarArray};
 
 /// Limits and manners; the defaults are safe ones.
 #[derive(Clone, Debug)]
-pub struct Settings {
+pub struct ArcosSettings {
     /// m/s.
     pub speed: f64,
     /// rad/s.
@@ -33,7 +33,7 @@ pub struct Settings {
     pub sonars: SonarArray,
 }
 
-impl Default for Settings {
+impl Default for ArcosSettings {
     fn default() -> Self {
         Self {
             speed: 0.3,
@@ -51,7 +51,7 @@ impl Default for Settings {
     }
 }
 
-impl Settings {
+impl ArcosSettings {
     /// The robot with these limits.
     pub fn body(&self) -> Body {
         Body {

@@ -52,7 +52,7 @@ impl<L: Line> Client<L> {
         self.line.sleep(Duration::from_millis(10));
         self.send(&Command::bare(number::PULSE))?;
         let sips = self.report.sips;
-        self.pause_until(NEW_RATE, |client| client.report.sips > sips + 1)?;
+        self.pause_until(NEW_RATE + self.round_trip, |client| client.report.sips > sips + 1)?;
         if self.report.sips <= sips + 1 {
             self.line.set_baud(now)?;
             self.note(format!("the robot did not follow to {better} baud; staying at {now}"));
@@ -100,7 +100,7 @@ impl<L: Line> Client<L> {
             for command in commands {
                 self.send_spaced(command)?;
             }
-            self.pause_until(AGAIN, &mut done)?;
+            self.pause_until(AGAIN + self.round_trip, &mut done)?;
             if done(self) {
                 break;
             }

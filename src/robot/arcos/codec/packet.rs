@@ -11,6 +11,8 @@ const LEAST_COUNT: usize = 3;
 pub const LONGEST_SENT: usize = 200;
 /// A packet that has begun must be whole after this long (ARIA's receiver).
 const WHOLE_WITHIN: Duration = Duration::from_millis(100);
+/// From a slow line, so much longer for every byte of it that has come.
+const A_BYTE: Duration = Duration::from_millis(6);
 
 /// The checksum over number and data: big-endian words added, a byte left over taken in by exclusive or.
 pub fn checksum(bytes: &[u8]) -> u16 {
@@ -95,9 +97,17 @@ pub struct Decoder {
     /// When the bytes of the buffer came: how many of them, and the time.
     arrivals: VecDeque<(usize, Duration)>,
     counters: Counters,
+    /// Waits longer for a packet whose bytes come slowly.
+    patient: bool,
 }
 
 impl Decoder {
+    /// For reports that may come over a slow line, a few milliseconds a byte. A robot must not wait so long: a command
+    /// to stop may lie behind what only looks like a packet.
+    pub fn patient() -> Self {
+        Self { patient: true, ..Self::default() }
+    }
+
     /// Takes in bytes that arrived at `now`.
     pub fn push(&mut self, bytes: &[u8], now: Duration) {
         if !bytes.is_empty() {
@@ -106,7 +116,8 @@ impl Decoder {
         }
     }
 
-    /// The next whole packet. One that has begun and is not whole after 100 ms is given up.
+    /// The next whole packet. One that has begun and is not whole after 100 ms is given up, unless it is waited for with
+    /// patience.
     pub fn next(&mut self, now: Duration) -> Option<Packet> {
         loop {
             self.skip_to_header();
@@ -118,7 +129,8 @@ impl Decoder {
             }
             if self.buffer.len() < count + 3 {
                 let begun = self.arrivals.front().map_or(now, |(_, time)| *time);
-                if now.saturating_sub(begun) <= WHOLE_WITHIN {
+                let came = if self.patient { A_BYTE * self.buffer.len() as u32 } else { Duration::ZERO };
+                if now.saturating_sub(begun) <= WHOLE_WITHIN + came {
                     return None;
                 }
                 self.counters.cut_short += 1;

@@ -81,6 +81,9 @@ impl fmt::Display for Address {
 
 impl Address {
     /// Opens the line there; nothing for the simulated robot, which has none.
+    ///
+    /// # Errors
+    /// When the device or host cannot be opened.
     pub fn open(&self) -> io::Result<Option<Box<dyn Line + Send>>> {
         Ok(match self {
             Self::Sim => None,

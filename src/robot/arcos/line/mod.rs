@@ -6,6 +6,7 @@ mod serial;
 mod tcp;
 
 use std::io;
+use std::os::fd::OwnedFd;
 use std::time::Duration;
 
 pub use address::{Address, AddressError};
@@ -49,6 +50,11 @@ pub trait Line {
         true
     }
 
+    /// The same line for another process, to write to.
+    fn share(&self) -> io::Result<OwnedFd> {
+        Err(io::ErrorKind::Unsupported.into())
+    }
+
     /// What to call it in messages.
     fn name(&self) -> String;
 }
@@ -84,6 +90,10 @@ impl<T: Line + ?Sized> Line for Box<T> {
 
     fn baud_is_fixed(&self) -> bool {
         (**self).baud_is_fixed()
+    }
+
+    fn share(&self) -> io::Result<OwnedFd> {
+        (**self).share()
     }
 
     fn name(&self) -> String {

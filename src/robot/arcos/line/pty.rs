@@ -25,7 +25,10 @@ pub struct PtyLine {
 }
 
 impl PtyLine {
-    /// Makes a pseudo-terminal that clients open as `path`, a symbolic link; an old link is replaced.
+    /// Makes a pseudo-terminal that clients open as `path`, a symbolic link; an old link to a pseudo-terminal is replaced, anything else is not.
+    ///
+    /// # Errors
+    /// When the system gives none, or the link cannot be made.
     pub fn create(path: &Path, baud: u32) -> io::Result<Self> {
         let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
         grantpt(&master)?;
@@ -38,7 +41,7 @@ impl PtyLine {
         settings.set_speed(baud)?;
         tcsetattr(&slave, OptionalActions::Now, &settings)?;
         match std::fs::symlink_metadata(path) {
-            Ok(found) if found.is_symlink() => std::fs::remove_file(path)?,
+            Ok(found) if found.is_symlink() && names_a_terminal(path) => std::fs::remove_file(path)?,
             Ok(_) => return Err(io::Error::new(io::ErrorKind::AlreadyExists, "a file is there; name another path")),
             Err(_) => {}
         }
@@ -60,10 +63,17 @@ impl PtyLine {
     }
 }
 
+/// Whether a link was made by such a server: it leads to a pseudo-terminal, though that may be gone.
+fn names_a_terminal(path: &Path) -> bool {
+    std::fs::read_link(path).is_ok_and(|target| target.starts_with("/dev/pts"))
+}
+
 impl Drop for PtyLine {
     fn drop(&mut self) {
-        // Nobody is left to be told.
-        let _ = std::fs::remove_file(&self.path);
+        if names_a_terminal(&self.path) {
+            // Nobody is left to be told.
+            let _ = std::fs::remove_file(&self.path);
+        }
     }
 }
 

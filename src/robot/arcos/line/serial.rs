@@ -1,6 +1,8 @@
 //! A serial line, opened for us alone.
 
+use std::fs::File;
 use std::io::{self, Read, Write};
+use std::os::fd::{AsFd, OwnedFd};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -21,15 +23,21 @@ pub struct SerialLine {
     fixed: Option<u32>,
     baud: u32,
     port: Option<TTYPort>,
+    /// The same device, opened before it was ours alone: for another process.
+    second: Option<File>,
     opened: Instant,
 }
 
 impl SerialLine {
     /// Opens a device, 8N1, raw, without flow control, refusing to share it.
+    ///
+    /// # Errors
+    /// When there is no such device, or someone else has it open.
     pub fn open(device: &Path, baud: Option<u32>) -> io::Result<Self> {
         let baud_now = baud.unwrap_or(BAUD_RATES[0]);
-        let port = open_port(device, baud_now)?;
-        Ok(Self { device: device.to_path_buf(), fixed: baud, baud: baud_now, port: Some(port), opened: Instant::now() })
+        let (second, port) = open_port(device, baud_now)?;
+        let (device, opened) = (device.to_path_buf(), Instant::now());
+        Ok(Self { device, fixed: baud, baud: baud_now, port: Some(port), second: Some(second), opened })
     }
 
     fn port(&mut self) -> io::Result<&mut TTYPort> {
@@ -38,15 +46,21 @@ impl SerialLine {
     }
 }
 
-fn open_port(device: &Path, baud: u32) -> io::Result<TTYPort> {
+fn open_port(device: &Path, baud: u32) -> io::Result<(File, TTYPort)> {
     // What the library says of a device it cannot open depends on its version: ask the system first.
-    std::fs::OpenOptions::new().read(true).write(true).open_nonblocking(device).map_err(|e| explain(device, e))?;
+    let second = std::fs::OpenOptions::new().read(true).write(true).open_nonblocking(device);
+    let second = second.map_err(|error| explain(device, error))?;
+    if !rustix::termios::isatty(&second) {
+        let text = format!("no serial line ({})", present_devices());
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, text));
+    }
     let name = device.to_string_lossy();
-    serialport::new(name, baud).timeout(WRITE_WITHIN).open_native().map_err(|error| match error.kind() {
+    let port = serialport::new(name, baud).timeout(WRITE_WITHIN).open_native().map_err(|error| match error.kind() {
         ErrorKind::Io(kind) => explain(device, io::Error::new(kind, error.description)),
         ErrorKind::NoDevice => busy(device, &error.description),
         _ => io::Error::other(error.description),
-    })
+    })?;
+    Ok((second, port))
 }
 
 trait OpenNonblocking {
@@ -66,13 +80,23 @@ fn explain(device: &Path, error: io::Error) -> io::Error {
     let text = match error.kind() {
         io::ErrorKind::PermissionDenied => {
             let group = std::fs::metadata(device).ok().and_then(|meta| group_name(meta.gid()));
-            let group = group.unwrap_or_else(|| "dialout".to_string());
-            format!("no permission; its group is `{group}`: run `sudo usermod -aG {group} $USER` and log in again")
+            // Nobody should join root for a cable.
+            match group.filter(|group| group != "root") {
+                Some(group) => {
+                    format!(
+                        "no permission; its group is `{group}`: run `sudo usermod -aG {group} $USER` and log in again"
+                    )
+                }
+                None => {
+                    let device = device.display();
+                    format!(
+                        "no permission; it is root's alone: run `sudo chgrp dialout {device} && sudo chmod g+rw {device}`, then `sudo usermod -aG dialout $USER`, and log in again"
+                    )
+                }
+            }
         }
         io::ErrorKind::NotFound => {
-            let present = serial_devices();
-            let present = if present.is_empty() { "no serial device is there".to_string() } else { present.join(" ") };
-            format!("no such device; is the adapter plugged in? ({present})")
+            format!("no such device; is the adapter plugged in? ({})", present_devices())
         }
         io::ErrorKind::ResourceBusy => return busy(device, "busy"),
         _ => error.to_string(),
@@ -112,6 +136,16 @@ fn group_name(id: u32) -> Option<String> {
     fields.filter(|f| f.len() > 2).find(|f| f[2].parse() == Ok(id)).map(|f| f[0].to_string())
 }
 
+/// Which serial devices there are, for people.
+fn present_devices() -> String {
+    let present = serial_devices();
+    if present.is_empty() {
+        "no serial device is there".to_string()
+    } else {
+        format!("there is {}", present.join(", "))
+    }
+}
+
 fn serial_devices() -> Vec<String> {
     let entries = std::fs::read_dir("/dev").into_iter().flatten().filter_map(Result::ok);
     let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
@@ -142,8 +176,10 @@ impl Line for SerialLine {
     }
 
     fn reopen(&mut self) -> io::Result<()> {
-        self.port = None;
-        self.port = Some(open_port(&self.device, self.baud)?);
+        // As long as anyone holds the device it stays closed to whoever opens it anew.
+        (self.port, self.second) = (None, None);
+        let (second, port) = open_port(&self.device, self.baud)?;
+        (self.second, self.port) = (Some(second), Some(port));
         Ok(())
     }
 
@@ -164,6 +200,10 @@ impl Line for SerialLine {
         self.fixed.is_some()
     }
 
+    fn share(&self) -> io::Result<OwnedFd> {
+        self.second.as_ref().ok_or(io::ErrorKind::NotConnected)?.as_fd().try_clone_to_owned()
+    }
+
     fn name(&self) -> String {
         format!("serial:{}", self.device.display())
     }
@@ -178,8 +218,17 @@ mod tests {
         let device = tempfile::NamedTempFile::new().expect("a file");
         let group = group_name(device.path().metadata().expect("there").gid()).expect("a group with a name");
         let error = explain(device.path(), io::ErrorKind::PermissionDenied.into());
-        let text = format!("its group is `{group}`: run `sudo usermod -aG {group} $USER` and log in again");
+        let text = match group.as_str() {
+            "root" => "it is root's alone: run `sudo chgrp dialout".to_string(),
+            group => format!("its group is `{group}`: run `sudo usermod -aG {group} $USER` and log in again"),
+        };
         assert!(error.kind() == io::ErrorKind::PermissionDenied && error.to_string().contains(&text), "{error}");
+    }
+
+    #[test]
+    fn what_is_no_serial_line_is_refused() {
+        let error = SerialLine::open(Path::new("/dev/null"), None).err().expect("refused");
+        assert!(error.to_string().contains("no serial line"), "{error}");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::io::{self, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
+use std::os::fd::OwnedFd;
 use std::time::{Duration, Instant};
 
 use super::Line;
@@ -21,11 +22,17 @@ pub struct TcpLine {
 
 impl TcpLine {
     /// Connects to `HOST:PORT`.
+    ///
+    /// # Errors
+    /// When the host is not found or refuses.
     pub fn connect(host: &str) -> io::Result<Self> {
         Ok(Self { host: Some(host.to_string()), stream: Some(dial(host)?), opened: Instant::now() })
     }
 
     /// A connection someone made to us, on a clock that began at `opened`.
+    ///
+    /// # Errors
+    /// When the connection cannot be set to the manners of a line.
     pub fn accepted(stream: TcpStream, opened: Instant) -> io::Result<Self> {
         Ok(Self { host: None, stream: Some(prepared(stream)?), opened })
     }
@@ -84,6 +91,11 @@ impl Line for TcpLine {
 
     fn now(&self) -> Duration {
         self.opened.elapsed()
+    }
+
+    fn share(&self) -> io::Result<OwnedFd> {
+        let stream = self.stream.as_ref().ok_or(io::ErrorKind::NotConnected)?;
+        Ok(stream.try_clone()?.into())
     }
 
     fn name(&self) -> String {

@@ -1,11 +1,11 @@
-//! One piece of a ray, on which the covariogram is a quadratic, and what a force makes of it.
+//! One stretch of a ray, on which the covariogram is a quadratic, and what a force makes of it.
 
 use super::super::Force;
 use super::super::quadrature::GAUSS;
 
 /// C(t) = q0 + q1·s + q2·s² with s = t − middle, |s| ≤ half.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Piece {
+pub(super) struct Stretch {
     pub(super) middle: f64,
     pub(super) half: f64,
     pub(super) q: [f64; 3],
@@ -14,8 +14,8 @@ pub(super) struct Piece {
 /// Up to this ratio of half to middle ten points are exact to rounding.
 const SMOOTH: f64 = 0.2;
 
-impl Piece {
-    /// ∫ φ(t)·C(t) dt over the piece.
+impl Stretch {
+    /// ∫ φ(t)·C(t) dt over the stretch.
     pub(super) fn force(&self, force: Force) -> f64 {
         if self.half <= 0.0 {
             return 0.0;
@@ -97,19 +97,19 @@ mod tests {
 
     #[test]
     fn quadrature_meets_the_closed_form() {
-        let piece = Piece { middle: 3.0, half: 0.5, q: [2.0, -1.0, 0.3] };
+        let stretch = Stretch { middle: 3.0, half: 0.5, q: [2.0, -1.0, 0.3] };
         for r in [0.5, 1.0, 1.7, 2.0, 3.0, 4.5] {
-            assert!((piece.by_quadrature(r) - piece.in_closed_form(r)).abs() < 1e-13, "r = {r}");
+            assert!((stretch.by_quadrature(r) - stretch.in_closed_form(r)).abs() < 1e-13, "r = {r}");
         }
-        assert!((piece.by_quadrature(2.0) - piece.gravitational()).abs() < 1e-14);
+        assert!((stretch.by_quadrature(2.0) - stretch.gravitational()).abs() < 1e-14);
     }
 
     #[test]
     fn a_hybrid_piece_is_the_sum_of_its_two_sides() {
-        let piece = Piece { middle: 1.0, half: 0.7, q: [1.0, 0.5, -0.2] };
-        let (near, far) = (piece.part(0.3, 0.9), piece.part(0.9, 1.7));
+        let stretch = Stretch { middle: 1.0, half: 0.7, q: [1.0, 0.5, -0.2] };
+        let (near, far) = (stretch.part(0.3, 0.9), stretch.part(0.9, 1.7));
         let want = near.force(Force::Power(0.0)) / 0.81 + far.force(Force::Power(2.0));
-        assert!((piece.force(Force::Hybrid(0.9)) - want).abs() < 1e-14);
-        assert!((near.constant() + far.constant() - piece.constant()).abs() < 1e-14);
+        assert!((stretch.force(Force::Hybrid(0.9)) - want).abs() < 1e-14);
+        assert!((near.constant() + far.constant() - stretch.constant()).abs() < 1e-14);
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// The axes in which directions are named.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Frame {
+pub enum Axes {
     /// A map or an image: right, above, left, below.
     Map,
     /// A body that faces `heading`, radians: its own front, left, rear, right. The robot's frame, and the intrinsic
@@ -44,7 +44,7 @@ const FRONT: Words = words("front", "in front of", "in front");
 const REAR: Words = words("rear", "behind", "to the rear");
 const BACK: Words = words("back", "behind", "behind");
 
-impl Frame {
+impl Axes {
     /// The frame of someone who stands before the front of an item that faces `front` and looks at it: left and
     /// right are mirrored against the item's own.
     pub fn facing(front: f64) -> Self {
@@ -60,7 +60,7 @@ impl Frame {
         }
     }
 
-    /// The angles of [`Frame::directions`] on the map, radians.
+    /// The angles of [`Axes::directions`] on the map, radians.
     pub fn angles(self) -> [f64; 4] {
         [0.0, 1.0, 2.0, 3.0].map(|quarter| self.origin() + quarter * FRAC_PI_2)
     }
@@ -78,8 +78,8 @@ impl Frame {
     /// "mostly in front but somewhat to the left", "in front and to the left", …
     ///
     /// ```
-    /// use spatial_fetch::force::Frame;
-    /// let robot = Frame::Body { heading: 0.0 };
+    /// use spatial_fetch::force::Axes;
+    /// let robot = Axes::Body { heading: 0.0 };
     /// assert_eq!(robot.name(0.4), "mostly in front but somewhat to the left");
     /// assert_eq!(robot.name(-0.8), "in front and to the right");
     /// ```
@@ -105,37 +105,37 @@ mod tests {
 
     use super::*;
 
-    fn angle_of(frame: Frame, name: &str) -> f64 {
-        let at = frame.directions().iter().position(|words| words.name == name).expect("a direction of the frame");
-        frame.angles()[at].rem_euclid(TAU)
+    fn angle_of(axes: Axes, name: &str) -> f64 {
+        let at = axes.directions().iter().position(|words| words.name == name).expect("a direction of the frame");
+        axes.angles()[at].rem_euclid(TAU)
     }
 
     #[test]
     fn a_robot_that_faces_north_has_west_on_its_left() {
-        let frame = Frame::Body { heading: FRAC_PI_2 };
-        assert!((angle_of(frame, "left") - PI).abs() < 1e-12);
-        assert!((angle_of(frame, "rear") - 1.5 * PI).abs() < 1e-12);
+        let axes = Axes::Body { heading: FRAC_PI_2 };
+        assert!((angle_of(axes, "left") - PI).abs() < 1e-12);
+        assert!((angle_of(axes, "rear") - 1.5 * PI).abs() < 1e-12);
     }
 
     #[test]
     fn a_viewer_has_the_front_of_things_on_the_near_side_and_their_left_on_the_viewers_left() {
-        let frame = Frame::Viewer { heading: FRAC_PI_2 };
-        assert!((angle_of(frame, "front") - 1.5 * PI).abs() < 1e-12);
-        assert!((angle_of(frame, "left") - PI).abs() < 1e-12);
+        let axes = Axes::Viewer { heading: FRAC_PI_2 };
+        assert!((angle_of(axes, "front") - 1.5 * PI).abs() < 1e-12);
+        assert!((angle_of(axes, "left") - PI).abs() < 1e-12);
     }
 
     #[test]
     fn facing_an_item_mirrors_its_left_and_right() {
-        let (own, facing) = (Frame::Body { heading: 0.3 }, Frame::facing(0.3));
+        let (own, facing) = (Axes::Body { heading: 0.3 }, Axes::facing(0.3));
         assert!((angle_of(own, "left") - angle_of(facing, "right")).abs() < 1e-12);
         assert!((angle_of(own, "front") - angle_of(facing, "front")).abs() < 1e-12);
     }
 
     #[test]
     fn all_sixteen_directions_have_names_of_their_own() {
-        for frame in [Frame::Map, Frame::Body { heading: 1.0 }, Frame::Viewer { heading: 2.0 }] {
+        for axes in [Axes::Map, Axes::Body { heading: 1.0 }, Axes::Viewer { heading: 2.0 }] {
             let mut names: Vec<String> =
-                (0..16).map(|i| frame.name(frame.angles()[0] + TAU * f64::from(i) / 16.0)).collect();
+                (0..16).map(|i| axes.name(axes.angles()[0] + TAU * f64::from(i) / 16.0)).collect();
             names.sort();
             names.dedup();
             assert_eq!(names.len(), 16);
