@@ -78,6 +78,9 @@ impl Ender {
 
 impl ExternalDetector {
     /// Starts the command in a shell, with `patience` for each answer; what it says on standard error is seen.
+    ///
+    /// # Errors
+    /// When the shell cannot be started.
     pub fn start(command: &str, patience: Option<Duration>) -> Result<Self, ExternalError> {
         let failed = |what: String| ExternalError { command: command.to_string(), what };
         let pictures = tempfile::tempdir().map_err(|error| failed(format!("no place for pictures: {error}")))?;
@@ -104,6 +107,9 @@ impl ExternalDetector {
 
     /// The command's answer for a frame: `line` makes the JSON object that names it, without line breaks, for the
     /// number the frame gets.
+    ///
+    /// # Errors
+    /// When the command ends, is too slow, or its answer makes no sense: with what is wrong.
     pub fn detect(&self, line: impl FnOnce(u64) -> Result<String, String>) -> Result<Answer, ExternalError> {
         let mut running = self.running.lock().unwrap_or_else(PoisonError::into_inner);
         let answered = running.ask(line);
