@@ -80,7 +80,7 @@ impl ExternalDetector {
     /// Starts the command in a shell, with `patience` for each answer; what it says on standard error is seen.
     ///
     /// # Errors
-    /// When the command cannot be started.
+    /// When the shell cannot be started.
     pub fn start(command: &str, patience: Option<Duration>) -> Result<Self, ExternalError> {
         let failed = |what: String| ExternalError { command: command.to_string(), what };
         let pictures = tempfile::tempdir().map_err(|error| failed(format!("no place for pictures: {error}")))?;
@@ -109,7 +109,7 @@ impl ExternalDetector {
     /// number the frame gets.
     ///
     /// # Errors
-    /// When the command ends, is silent too long, or answers what is no list of detections.
+    /// When the command ends, is too slow, or its answer makes no sense: with what is wrong.
     pub fn detect(&self, line: impl FnOnce(u64) -> Result<String, String>) -> Result<Answer, ExternalError> {
         let mut running = self.running.lock().unwrap_or_else(PoisonError::into_inner);
         let answered = running.ask(line);
@@ -196,8 +196,7 @@ impl Running {
             }
         };
         if answer.len() as u64 > DETECTOR_ANSWER_BYTES.value {
-            let most = DETECTOR_ANSWER_BYTES.value;
-            return self.fail(format!("gave an answer of more than the {most} bytes that are taken"));
+            return self.fail(DETECTOR_ANSWER_BYTES.exceeded("gave more: its"));
         }
         self.understood(&answer, number)
     }
@@ -304,7 +303,7 @@ mod tests {
     fn a_flood_without_line_ends_is_cut_off() {
         let detector = ExternalDetector::start("read frame; tr '\\0' x < /dev/zero", None).expect("started");
         let error = ask(&detector).expect_err("too long");
-        assert!(error.contains("more than the 4194304 bytes"), "{error}");
+        assert!(error.contains("bytes are more than"), "{error}");
     }
 
     #[test]

@@ -49,10 +49,14 @@ impl Perceiver {
             None => self.detector.detect(frame, self.map.as_ref()),
             Some(external) => self.joined(external, frame, record)?,
         };
-        let furniture = view.furniture.into_iter().filter(|piece| is_surely(piece, self.least_confidence)).collect();
-        let view = View { furniture, ..view };
-        self.draw(name, frame, &view, from)?;
+        let sure = View { furniture: self.sure(view.furniture.clone()), ..view.clone() };
+        self.draw(name, frame, &sure, from)?;
         Ok(view)
+    }
+
+    /// Without what is less surely furniture than is asked for.
+    pub fn sure(&self, furniture: Vec<Detection>) -> Vec<Detection> {
+        furniture.into_iter().filter(|piece| is_surely(piece, self.least_confidence)).collect()
     }
 
     /// Adds what a frame from a log shows to its record; `from` says how its pose is known.
@@ -75,7 +79,7 @@ impl Perceiver {
     fn add(&self, name: &str, frame: &RgbdFrame, from: PoseSource, record: &mut Record) -> Result<Note, StageError> {
         let view = self.look(name, frame, from, record)?;
         record.set("camera", &CameraPose::new(frame.world_from_camera, from));
-        record.put(&view.furniture);
+        record.put(&self.sure(view.furniture));
         record.set("objects", &view.objects.into_iter().map(rounded).collect::<Vec<_>>());
         Ok(Note::Done)
     }

@@ -102,7 +102,7 @@ impl Mount {
     pub(super) fn complete(&self, trees: &Trees, taken: Taken) -> Result<Completed, Unplaced> {
         let found = trees.place(taken.camera, taken.stamp_ns);
         let candidates = self.candidates(taken.topic);
-        if let Err(Unplaced::OtherTime { .. }) = &found {
+        if let Err(Unplaced::OtherTime { .. } | Unplaced::Torn(_)) = &found {
             return found.map(Completed::Known);
         }
         let placed = found.ok().filter(|placed| !within_device(placed.root(), taken.camera));

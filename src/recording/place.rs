@@ -51,6 +51,12 @@ impl std::fmt::Display for Unplaced {
                 "the transforms end at `{root}`, and odometry moves `{base}`: nothing says how the two lie; publish a \
                  transform between them, or name the topic of `{root}`'s odometry by --topic"
             ),
+            Self::Torn(frame) => {
+                write!(
+                    f,
+                    "`{frame}` is said to be at several places at once: the transforms of several robots are mixed"
+                )
+            }
             Self::OtherRobots(topics) => {
                 let all = topics.join(", ");
                 write!(

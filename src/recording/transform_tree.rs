@@ -9,6 +9,15 @@ use crate::limits::TRANSFORM_CHAIN;
 
 /// Beyond the first and last sample a transform is believed for this long, nanoseconds.
 const TOLERANCE_NS: u64 = 200_000_000;
+/// A frame leaps when it goes farther than this, metres, and than the fastest robot gets, metres a second: a localisation
+/// that finds itself leaps once, two robots under one name forth and back again and again.
+const LEAP_M: f64 = 0.5;
+const FASTEST_M_S: f64 = 5.0;
+/// Leaps within this of each other follow at once, nanoseconds, and so many of them are no localisation's.
+const AT_ONCE_NS: u64 = 1_000_000_000;
+const MOST_LEAPS: u32 = 4;
+/// A camera that is fixed to a robot is not fixed to it elsewhere as well, metres.
+const SAME_MOUNT_M: f64 = 0.05;
 /// Frames that stand for the world: a chain ends there.
 pub(super) const WORLDS: [&str; 2] = ["map", "world"];
 
@@ -23,6 +32,9 @@ struct Track {
     parent: String,
     fixed: bool,
     samples: BTreeMap<u64, Isometry3<f64>>,
+    /// Leaps that followed each other at once, and when the last one was.
+    leaps: u32,
+    leapt_ns: u64,
 }
 
 /// Trees that hold together; where two know a frame, the first counts.
@@ -46,6 +58,8 @@ pub(super) enum Unplaced {
     OtherTime { frame: String, off_ns: u64 },
     /// The transforms end at `root`, and odometry moves another frame.
     OtherBase { root: String, base: String },
+    /// This frame is said to be at several places at once.
+    Torn(String),
     /// Several robots' transforms, and nothing says whose camera this is.
     OtherRobots(Vec<String>),
 }
@@ -60,10 +74,16 @@ impl Placed {
 impl TransformTree {
     /// Takes in a transform; `fixed` ones hold for all time.
     pub(super) fn insert(&mut self, transform: &Transform, fixed: bool) {
-        let fresh = || Track { parent: transform.parent.clone(), fixed, samples: BTreeMap::new() };
+        let fresh =
+            || Track { parent: transform.parent.clone(), fixed, samples: BTreeMap::new(), leaps: 0, leapt_ns: 0 };
         let track = self.tracks.entry(transform.child.clone()).or_insert_with(fresh);
         if track.parent != transform.parent {
-            *track = fresh();
+            let (leaps, leapt_ns) = (track.leaps, track.leapt_ns);
+            *track = Track { leaps, leapt_ns, ..fresh() };
+            track.leap(transform.stamp_ns);
+        }
+        if track.leaps_to(transform) {
+            track.leap(transform.stamp_ns);
         }
         track.samples.insert(transform.stamp_ns, transform.parent_from_child);
     }
@@ -136,6 +156,9 @@ impl Trees<'_> {
         let mut chain = vec![at.clone()];
         while chain.len() <= TRANSFORM_CHAIN.count() && !WORLDS.contains(&at.as_str()) {
             let Some(track) = self.track(&at) else { break };
+            if track.is_torn() {
+                return Err(Unplaced::Torn(at));
+            }
             let parent_from_child =
                 track.at(stamp_ns).map_err(|off_ns| Unplaced::OtherTime { frame: at.clone(), off_ns })?;
             placed = parent_from_child * placed;
@@ -147,6 +170,30 @@ impl Trees<'_> {
 }
 
 impl Track {
+    /// Whether it leaps back to where it leapt from; what is fixed moves not at all.
+    fn leaps_to(&self, transform: &Transform) -> bool {
+        let mut before = self.samples.range(..=transform.stamp_ns).rev();
+        let to = transform.parent_from_child.translation.vector;
+        let beyond = |(then, from): (&u64, &Isometry3<f64>)| {
+            let passed_s = (transform.stamp_ns - then) as f64 / 1e9;
+            let reach_m = if self.fixed { SAME_MOUNT_M } else { LEAP_M + FASTEST_M_S * passed_s };
+            (from.translation.vector - to).norm() > reach_m
+        };
+        let leapt = before.next().is_some_and(beyond);
+        leapt && (self.fixed || before.next().is_some_and(|earlier| !beyond(earlier)))
+    }
+
+    fn leap(&mut self, stamp_ns: u64) {
+        let goes_on = stamp_ns.abs_diff(self.leapt_ns) < AT_ONCE_NS;
+        self.leaps = if goes_on || self.fixed { self.leaps + 1 } else { 1 };
+        self.leapt_ns = stamp_ns;
+    }
+
+    /// Whether several robots say where this frame is.
+    fn is_torn(&self) -> bool {
+        self.leaps >= if self.fixed { 1 } else { MOST_LEAPS }
+    }
+
     /// Interpolated between the samples about a time; the error is how far the nearest one is off.
     fn at(&self, stamp_ns: u64) -> Result<Isometry3<f64>, u64> {
         let before = self.samples.range(..=stamp_ns).next_back();
@@ -193,6 +240,20 @@ mod tests {
         tree.insert(&moved(1, "map", "base_link", 0.0), false);
         let error = tree.place("base_link", 9_000_000_000).expect_err("too old");
         assert!(matches!(error, Unplaced::OtherTime { off_ns: 8_999_999_999, .. }), "{error:?}");
+    }
+
+    #[test]
+    fn a_frame_that_two_robots_move_is_placed_by_neither() {
+        let at = |i: u64, x: f64| moved(i * 50_000_000, "odom", "base_link", x);
+        let mut tree = TransformTree::default();
+        (0..6).for_each(|i| tree.insert(&at(i, if i % 2 == 0 { 0.0 } else { 7.0 }), false));
+        assert_eq!(tree.place("base_link", 200_000_000), Err(Unplaced::Torn("base_link".to_string())));
+        let mut found_itself = TransformTree::default();
+        (0..6).for_each(|i| found_itself.insert(&at(i, if i < 3 { 0.0 } else { 7.0 }), false));
+        assert!(found_itself.place("base_link", 250_000_000).is_ok(), "one leap is a localisation's");
+        let mut mounts = TransformTree::default();
+        [0.1, 0.4].iter().enumerate().for_each(|(i, x)| mounts.insert(&moved(i as u64, "base", "camera", *x), true));
+        assert!(matches!(mounts.place("camera", 0), Err(Unplaced::Torn(_))));
     }
 
     #[test]

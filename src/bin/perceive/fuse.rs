@@ -5,7 +5,7 @@ use spatial_fetch::cli::{
     self, Common, Diagnostic, Exit, Failure, Format, FrameInput, FrameItem, Line, Reporter, Source, open_output,
 };
 use spatial_fetch::escape::for_terminal;
-use spatial_fetch::perception::{Perceiver, SceneView, Scenes, scene_of};
+use spatial_fetch::perception::{Perceiver, SceneRecord, SceneView, Scenes, scene_of};
 use spatial_fetch::record::{Record, StageError};
 
 /// Looks at every frame and writes one record a scene, in the order in which scenes first appear.
@@ -20,6 +20,8 @@ pub fn run(common: &Common, input: FrameInput, perceiver: &Perceiver) -> Result<
     }
     let sink = open_output(common)?;
     for scene in gathering.scenes.fused() {
+        // Guesses of several views together may be none.
+        let scene = SceneRecord { detections: perceiver.sure(scene.detections), ..scene };
         let text = match common.format {
             Format::Json | Format::Csv => {
                 serde_json::to_string(&scene).map_err(|error| Failure::Failed(error.to_string()))?
