@@ -40,6 +40,9 @@ pub fn refuse_existing(path: &Path, force: bool) -> Result<(), FileError> {
 }
 
 /// Says before anything moves whether [`write_file`] could write there: nothing is in the way, and the folder takes files.
+///
+/// # Errors
+/// When the file exists and `force` is not set, or its folder cannot be written to.
 pub fn refuse_unwritable(path: &Path, force: bool) -> Result<(), FileError> {
     refuse_existing(path, force)?;
     if path.is_dir() {
@@ -99,6 +102,9 @@ pub fn write_file(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileErro
 
 /// A temporary file in the folder of `path`, where it can be renamed from; as open to others as a new file would be, or
 /// as the file is that it replaces.
+///
+/// # Errors
+/// When the folder cannot be written to.
 pub fn temporary_beside(path: &Path) -> Result<NamedTempFile, FileError> {
     let path = &target_of(path);
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
@@ -114,6 +120,9 @@ pub fn temporary_beside(path: &Path) -> Result<NamedTempFile, FileError> {
 }
 
 /// Renames a temporary file onto `path`; what a symbolic link names is replaced, not the link.
+///
+/// # Errors
+/// When the file cannot be put there.
 pub fn persist(temporary: NamedTempFile, path: &Path, force: bool) -> Result<(), FileError> {
     let target = target_of(path);
     if let Ok(found) = target.metadata().as_ref().map(std::fs::Metadata::permissions) {

@@ -123,7 +123,8 @@ fn a_page_of_ones_own_run_is_written_and_not_overwritten() {
     run("drive", &["--report", report], &plan).expect_code(0);
     let page = std::fs::read_to_string(folder.path().join("report/index.html")).expect("a page");
     assert!(page.contains("class=\"player\"") && page.contains("hexagon table 1"));
-    assert!(page.len() < 80_000, "{} bytes", page.len());
+    // Style and script and one trial, which is to stay under 60 kB.
+    assert!(page.len() < 75_000, "{} bytes", page.len());
     let ran = run("drive", &["--report", report], &plan).expect_code(2);
     assert!(ran.err.contains("index.html exists"), "{}", ran.err);
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use spatial_fetch::evaluation::{import, parse_tree, read_gold, score, with_texts};
-use spatial_fetch::force::{Describer, ForceName, FrameName};
+use spatial_fetch::force::{AxesName, Describer, ForceName};
 use spatial_fetch::frame::{decode_color, decode_depth, picture_size};
 use spatial_fetch::grounding::{GroundStage, Grounder, Method, Settings};
 use spatial_fetch::language::{Chunker, chunk_text};
@@ -103,7 +103,7 @@ pub fn shapes(data: &[u8]) {
     let describer = Describer {
         forces: vec![ForceName::Power(0.0), ForceName::Power(2.0)],
         directions: 16,
-        frame: FrameName::Map,
+        frame: AxesName::Map,
         fuzzy: Default::default(),
         pictures: None,
     };

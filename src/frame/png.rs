@@ -24,7 +24,9 @@ impl RgbdFrame {
             })
         };
         let pixels: Vec<[u8; 3]> = (0..width * height).map(pixel).collect();
-        rgb_png(width, height, &pixels)
+        // Equal neighbours of few colours pack better as they are than as differences: a third of the bytes.
+        let how = (png::Compression::Balanced, png::Filter::NoFilter);
+        encode(width, height, png::ColorType::Rgb, png::BitDepth::Eight, pixels.as_flattened(), Some(how))
     }
 
     /// The depth picture as a 16-bit grey PNG file, in the frame's units.
@@ -35,21 +37,32 @@ impl RgbdFrame {
 
 /// A colour PNG file.
 pub fn rgb_png(width: usize, height: usize, pixels: &[[u8; 3]]) -> Vec<u8> {
-    encode(width, height, png::ColorType::Rgb, png::BitDepth::Eight, pixels.as_flattened())
+    encode(width, height, png::ColorType::Rgb, png::BitDepth::Eight, pixels.as_flattened(), None)
 }
 
 /// A 16-bit grey PNG file: depth, or a mask of item ids.
 pub fn grey_png(width: usize, height: usize, values: &[u16]) -> Vec<u8> {
     let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_be_bytes()).collect();
-    encode(width, height, png::ColorType::Grayscale, png::BitDepth::Sixteen, &bytes)
+    encode(width, height, png::ColorType::Grayscale, png::BitDepth::Sixteen, &bytes, None)
 }
 
-fn encode(width: usize, height: usize, color: png::ColorType, depth: png::BitDepth, data: &[u8]) -> Vec<u8> {
+/// How a picture is packed, where it is not the quick way.
+type Packing = (png::Compression, png::Filter);
+
+fn encode(
+    width: usize,
+    height: usize,
+    color: png::ColorType,
+    depth: png::BitDepth,
+    data: &[u8],
+    packing: Option<Packing>,
+) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
     encoder.set_color(color);
     encoder.set_depth(depth);
-    encoder.set_compression(png::Compression::Fast);
+    encoder.set_compression(packing.map_or(png::Compression::Fast, |(compression, _)| compression));
+    packing.iter().for_each(|(_, filter)| encoder.set_filter(*filter));
     // Writing to memory cannot fail; were it to, an empty file says so.
     let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(data));
     if written.is_err() {

@@ -302,7 +302,7 @@ impl<'u, 't> Text<'u, 't> {
             if !comma && !and {
                 break;
             }
-            let Some(other) = self.noun(next).filter(|other| self.joins(noun, other, part, between, comma)) else {
+            let Some(other) = self.noun(next).filter(|other| self.joins(noun, other, part, between)) else {
                 break;
             };
             past = other.past;
@@ -314,7 +314,7 @@ impl<'u, 't> Text<'u, 't> {
         sure
     }
 
-    fn joins(&self, noun: &NounPhrase, other: &NounPhrase, part: Part, between: bool, comma: bool) -> bool {
+    fn joins(&self, noun: &NounPhrase, other: &NounPhrase, part: Part, between: bool) -> bool {
         let clause = self.units.get(other.past).is_some_and(|unit| {
             !unit.pause && (unit.has(Role::Copula) || unit.has(Role::Modal) || unit.has(Role::Has))
         });

@@ -169,7 +169,7 @@ mod tests {
 
     fn answer(category: &str, sides: [f64; 4]) -> Answer {
         let seen = PictureBox { category: category.to_string(), confidence: 0.9, sides, mask: None };
-        Answer { detections: None, boxes: Some(vec![seen]) }
+        Answer { boxes: Some(vec![seen]), ..Answer::default() }
     }
 
     #[test]

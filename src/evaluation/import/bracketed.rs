@@ -15,6 +15,9 @@ pub(super) struct TreeBuilder {
 
 impl TreeBuilder {
     /// Opens a bracket; one whose name is no chunk tag only groups words.
+    ///
+    /// # Errors
+    /// When brackets stand deeper in each other than a tree may be.
     pub fn open(&mut self, name: &str) -> Result<(), String> {
         TREE_DEPTH.check(self.open.len() + 1)?;
         let index = tag_of(name).map(|tag| {

@@ -138,13 +138,13 @@ mod tests {
     use super::*;
     use crate::evaluation::Pipeline;
     use crate::recording::Story;
-    use crate::simulation::{Home, Settings, run};
+    use crate::simulation::{Home, TrialSettings, run};
 
     fn told(id: &str, text: &str, home: &Home) -> Told {
-        let pipeline = Pipeline::new(home, Settings::default());
+        let pipeline = Pipeline::new(home, TrialSettings::default());
         let understood = pipeline.understand(text);
         let mut story = Story::default();
-        let run = run(home, &understood.plan, &Settings::default(), 0, &mut story);
+        let run = run(home, &understood.plan, &TrialSettings::default(), 0, &mut story);
         let mut record = Record::from_text(id, text);
         record.set("chunks", &understood.chunks);
         record.set("grounding", &understood.grounding);

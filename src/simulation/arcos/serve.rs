@@ -78,11 +78,17 @@ impl ServeAddress {
 }
 
 /// Serves the robot at `address` until `goes_on` says no, which is asked every few milliseconds with the robot at hand.
+///
+/// # Errors
+/// When the address cannot be listened at, or the line fails.
 pub fn serve(server: &mut Server, address: &ServeAddress, goes_on: impl FnMut(&mut Server) -> bool) -> io::Result<()> {
     serve_at(server, address.listen()?, goes_on)
 }
 
 /// The same at a place that is open already.
+///
+/// # Errors
+/// When the line fails.
 pub fn serve_at(server: &mut Server, place: Place, mut goes_on: impl FnMut(&mut Server) -> bool) -> io::Result<()> {
     match place {
         Place::Pty(mut line) => {
