@@ -243,7 +243,8 @@ impl Line {
             let i = (first + lane) as i32 as f32;
             let u = wrapped(self.eye[0] + (self.start[0] + i * self.step[0]) * depth);
             let v = wrapped(self.eye[1] + (self.start[1] + i * self.step[1]) * depth);
-            spots[lane] = v * SIDE as u32 + u;
+            // A lane without a surface has no spot: what wraps there is not looked at.
+            spots[lane] = v.wrapping_mul(SIDE as u32).wrapping_add(u);
         }
         spots
     }
