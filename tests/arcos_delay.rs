@@ -15,7 +15,7 @@ use spatial_fetch::geometry::Pose;
 use spatial_fetch::map::RoomMap;
 use spatial_fetch::perception::{Eyes, View};
 use spatial_fetch::record::{Outcome, Plan};
-use spatial_fetch::robot::arcos::client::{Client, ConnectError, Settings};
+use spatial_fetch::robot::arcos::client::{ArcosSettings, Client, ConnectError};
 use spatial_fetch::robot::arcos::codec::{Decoder, Packet, SIP_MOVING, SIP_STOPPED, number};
 use spatial_fetch::robot::arcos::line::Line;
 use spatial_fetch::robot::{MobileBase, RobotError};
@@ -118,7 +118,7 @@ fn trial(delay_ms: u64, jitter_ms: u64, seed: u64) -> (Report, f64, usize, u32) 
     let plan: Plan = serde_json::from_str(plan).expect("a plan");
     let robot = robot_that_answers_after(0.06);
     let line = LateLine::new(MemoryLine::new(Rc::clone(&robot)), seed, delay_ms, jitter_ms);
-    let mut base = InMap(Client::connect(line, Settings::default()).expect("connects"));
+    let mut base = InMap(Client::connect(line, ArcosSettings::default()).expect("connects"));
     let map = RoomMap::apartment();
     let mut watcher = Reversals { robot: Rc::clone(&robot), sense: 0.0, count: 0 };
     let began_s = base.time_s();
@@ -197,7 +197,7 @@ impl Line for Edited {
 fn edited(robot: &Robot, edit: Edit) -> Client<Edited> {
     let inner = MemoryLine::new(Rc::clone(robot));
     let line = Edited { inner, decoder: Decoder::default(), waiting: VecDeque::new(), edit };
-    Client::connect(line, Settings::default()).expect("connects")
+    Client::connect(line, ArcosSettings::default()).expect("connects")
 }
 
 fn said(client: &mut Client<Edited>) -> String {
@@ -337,7 +337,7 @@ impl Line for Particular {
 fn the_first_word_to_a_robot_is_its_first_number() {
     let robot = Particular::default();
     let heard = Rc::clone(&robot.heard);
-    let client = Client::connect(robot, Settings::default()).expect("connects");
+    let client = Client::connect(robot, ArcosSettings::default()).expect("connects");
     assert_eq!(heard.borrow()[..4], [0, 1, 2, number::OPEN]);
     let line = client.preflight();
     assert!(line.contains("A robot with a long name") && !line.contains('\x1b'), "{line:?}");
@@ -346,13 +346,13 @@ fn the_first_word_to_a_robot_is_its_first_number() {
 #[test]
 fn replies_that_come_a_byte_every_five_milliseconds_are_waited_for() {
     let robot = Particular { a_byte: Duration::from_millis(5), ..Particular::default() };
-    Client::connect(robot, Settings::default()).expect("connects");
+    Client::connect(robot, ArcosSettings::default()).expect("connects");
 }
 
 #[test]
 fn a_robot_that_answers_and_does_not_synchronise_is_not_called_silent() {
     let robot = Particular { next: 1, ..Particular::default() };
-    let error = Client::connect(robot, Settings::default()).err().expect("refused");
+    let error = Client::connect(robot, ArcosSettings::default()).err().expect("refused");
     assert!(matches!(error, ConnectError::Handshake(..)), "{error}");
     assert!(error.to_string().contains("a robot answers (packet type 32)"), "{error}");
 }
@@ -360,7 +360,7 @@ fn a_robot_that_answers_and_does_not_synchronise_is_not_called_silent() {
 #[test]
 fn sonars_switched_off_by_one_client_hear_for_the_next() {
     let robot = robot_that_answers_after(0.0);
-    let mut first = Client::connect(MemoryLine::new(Rc::clone(&robot)), Settings::default()).expect("connects");
+    let mut first = Client::connect(MemoryLine::new(Rc::clone(&robot)), ArcosSettings::default()).expect("connects");
     let sonars_off = spatial_fetch::robot::arcos::codec::Command::int(number::SONAR, 0);
     first.line().write(&sonars_off.to_packet().to_bytes()).expect("memory");
     drop(first);

@@ -90,7 +90,7 @@ fn perceive_sees_in_the_log_what_the_robot_saw_and_one_room_when_fused() {
     let folder = tempfile::tempdir().expect("a folder");
     let (seen, log) = seen_and_recorded(folder.path());
     let map = "fixtures/apartment.map.json";
-    let again = run("perceive", &["--map", map, &log], "").expect_code(0).records();
+    let again = run("perceive", &["--least-confidence", "0", "--map", map, &log], "").expect_code(0).records();
     assert!(seen.len() > 10, "{} looks", seen.len());
     let again: Vec<&Value> = again.iter().map(|record| &record["detections"]).collect();
     assert_eq!(again, seen.iter().collect::<Vec<_>>());
@@ -190,7 +190,8 @@ fn what_the_camera_showed_is_perceived_again_from_the_log() {
         serde_json::from_str::<serde_json::Value>(&line).expect("JSON")["detections"].take()
     };
     let seen: Vec<_> = records(&log, "/fetch/seen").expect("a log").into_iter().map(detections).collect();
-    let again = run("perceive", &["--map", "apartment", log.to_str().expect("UTF-8")], "").expect_code(0);
+    let again = run("perceive", &["--least-confidence", "0", "--map", "apartment", log.to_str().expect("UTF-8")], "");
+    let again = again.expect_code(0);
     let again: Vec<_> = again.out.lines().map(str::to_string).map(detections).collect();
     assert!(seen.len() > 3 && again == seen, "{again:?} instead of {seen:?}");
 }

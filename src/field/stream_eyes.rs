@@ -234,6 +234,10 @@ mod tests {
     impl Remote for Put {
         fn stop(&self) {}
 
+        fn pause(&self) {}
+
+        fn go_on(&self) {}
+
         fn is_moving(&self) -> bool {
             false
         }

@@ -45,6 +45,7 @@ fn doubts(grounding: &Grounding, reading: &Reading) -> Doubts {
     for unit in &reading.units {
         counts.count("mended", unit.mended && unit.noun.is_some());
         counts.count("person_named", unit.capital);
+        counts.count("unknown_word", unit.is_unknown() && !unit.foreign && !unit.capital);
     }
     reading.phrases.iter().for_each(|phrase| counts.phrase(phrase, reading));
     counts.grounding(grounding);

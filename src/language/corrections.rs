@@ -33,8 +33,9 @@ pub(super) fn rule_out(phrases: &mut [Phrase], units: &[Unit]) {
         let phrase = &mut phrases[at];
         // "Apart from the beer": said with what it rules out.
         if phrase.kind == Kind::Not && !phrase.nouns.is_empty() {
+            let generic = phrase.noun().is_some_and(|noun| noun.generic);
             phrase.kind = Kind::RuledOut;
-            ruled_to = None;
+            ruled_to = generic.then_some(phrase.past);
             continue;
         }
         let begins = units[first].pause || units[first].has(Role::Motion) || units[first].has(Role::Turn);

@@ -336,6 +336,7 @@ impl<'u, 't> Text<'u, 't> {
             && other.article == Article::Definite
             && self.units.get(other.past).is_some_and(|unit| !unit.pause && unit.has(Role::Preposition))
             && self.relation(other.past).is_some_and(|(_, past)| !self.is(past, &["it", "them"]));
+        let alike = alike || part == Part::List && other.article == Article::Indefinite && other.is_furniture();
         !clause && alike && !own_place && !(part == Part::List && self.units[other.first].has(Role::Act))
     }
 

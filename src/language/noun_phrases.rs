@@ -477,7 +477,7 @@ fn part(word: &str) -> Option<Direction> {
 pub fn name_of(phrase: &NounPhrase, units: &[Unit], counted: bool) -> String {
     let mut words: Vec<Cow<str>> = Vec::new();
     if let Some(contents) = phrase.contents {
-        words.push(one_name(&units[contents], false));
+        words.push(Cow::Owned(singular(one_name(&units[contents], false).as_ref())));
     }
     for at in phrase.name..=phrase.head {
         words.push(if at < phrase.head {

@@ -144,8 +144,9 @@ mod tests {
             Action::Go { .. } => "go",
             Action::Search { .. } => "search",
             Action::Find { .. } => "find",
+            Action::Deliver { .. } => "deliver",
         };
-        actions_for(nodes, Some("mug"), Lexicon::embedded()).iter().map(name).collect()
+        actions_for(nodes, &[Some("mug".to_string())], &[], Lexicon::embedded()).iter().map(name).collect()
     }
 
     #[test]

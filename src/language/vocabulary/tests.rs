@@ -121,13 +121,13 @@ proptest! {
         let known = vocabulary.noun(&text).is_some();
         prop_assert!(!known || vocabulary.class_of(&text).is_some() || text.contains("of"));
         vocabulary.is_english(&text);
-        Lexicon::embedded().nearest_noun(&text);
-        Lexicon::embedded().classify(&text);
+        Lexicon::embedded().mended(&text);
+        Lexicon::embedded().inferred(&text);
     }
 
     #[test]
     fn a_word_of_english_is_never_mended(at in 0_usize..76_000) {
         let word = Vocabulary::embedded().english.lines().nth(at).unwrap_or_default();
-        prop_assert_eq!(Lexicon::embedded().nearest_noun(word), None);
+        prop_assert_eq!(Lexicon::embedded().mended(word), None);
     }
 }

@@ -103,11 +103,12 @@ impl Grid {
         let mut walls: Vec<[[f64; 2]; 2]> = Vec::new();
         for (x, y) in self.cells(CellState::Occupied).filter(|&(x, y)| inner(self.centre(x, y))) {
             let at = self.centre(x, y);
+            let too_many = walls.len() > HOME_INNER_WALLS.count();
             match walls.last_mut() {
                 // The next cell of the same row lengthens the segment.
                 Some([_, end]) if end[1] == at.y && (at.x - half - end[0]).abs() < 1e-6 => end[0] = at.x + half,
                 // The check of the map says how many are too many.
-                _ if walls.len() > HOME_INNER_WALLS.count() => break,
+                _ if too_many => break,
                 _ => walls.push([[at.x - half, at.y], [at.x + half, at.y]]),
             }
         }
