@@ -5,7 +5,7 @@
 
 use super::grammar::{Grammar, RuleKind};
 use super::matching::{Caught, Text};
-use super::units::Unit;
+use super::unit::Unit;
 use super::word_class::{Class, Role};
 
 /// A rule where it fits.

@@ -1,7 +1,7 @@
 //! What phrases mean beside one another: what is taken back or ruled out, and places that go on from a move.
 
-use super::phrases::{Act, From, Kind, Phrase};
-use super::units::Unit;
+use super::phrase::{Act, From, Kind, Phrase};
+use super::unit::Unit;
 use super::word_class::{Role, Roles};
 
 /// Most words between "not" and what it rules out.

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::noun_phrases::Article;
-use super::phrases::{Act, Kind, Phrase};
-use super::units::Unit;
+use super::phrase::{Act, Kind, Phrase};
+use super::unit::Unit;
 
 /// The errands of a text, as ranges of its phrases; one for most.
 ///

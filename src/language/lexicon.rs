@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use super::morphology::singulars;
 use super::relations::Relations;
-use super::units::NounUnit;
+use super::unit::NounUnit;
 use super::vocabulary::{NounClass, Vocabulary, nearest};
 use super::word_class::{Class, Role, Roles};
 

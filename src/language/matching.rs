@@ -4,7 +4,7 @@ use super::grammar::{Atom, Element, Grammar, Look, Part, Repeat};
 use super::lexicon::Lexicon;
 use super::noun_phrases::{Article, NounPhrase, noun_phrase, side};
 use super::relations::Relation;
-use super::units::Unit;
+use super::unit::Unit;
 use super::word_class::{Class, Role, Roles};
 use super::zones::{Zone, zone};
 use crate::record::Direction;

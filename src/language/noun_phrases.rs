@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::morphology::singular;
-use super::units::Unit;
+use super::unit::Unit;
 use super::word_class::{Class, Role, Roles};
 use crate::record::Direction;
 

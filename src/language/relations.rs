@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::units::Unit;
+use super::unit::Unit;
 use super::word_class::{Role, Roles};
 use crate::record::Direction;
 

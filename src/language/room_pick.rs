@@ -5,8 +5,8 @@
 //! beside furniture is a place, and after a room that is named outright a
 //! turn is a turn inside it.
 
-use super::phrases::{From, Kind, Phrase};
-use super::units::Unit;
+use super::phrase::{From, Kind, Phrase};
+use super::unit::Unit;
 use super::word_class::{Class, Role};
 use crate::record::Direction;
 

@@ -1,9 +1,9 @@
 //! What a statement is about: the thing, or furniture that is itself asked for.
 
 use super::noun_phrases::Article;
-use super::phrases::{Act, Kind, Phrase, can_be_carried};
+use super::phrase::{Act, Kind, Phrase, can_be_carried};
 use super::relations::Relation;
-use super::units::Unit;
+use super::unit::Unit;
 use super::word_class::Class;
 
 /// "The lamp is on the desk" is about the lamp; "the sofa is behind you" brings in the sofa.

@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use super::phrases::{Kind, Phrase};
+use super::phrase::{Kind, Phrase};
 use super::room_pick::{RoomPick, is_lead};
 use super::tokens::Word;
-use super::units::Unit;
+use super::unit::Unit;
 use crate::record::{Chunk, Tag};
 
 /// A chunk in units.

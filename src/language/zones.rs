@@ -1,7 +1,7 @@
 //! Parts of a room: "the back", "the far right corner", "the middle", "the other end".
 
 use super::noun_phrases::side;
-use super::units::Unit;
+use super::unit::Unit;
 use super::word_class::{Class, Role};
 use crate::record::Direction;
 
