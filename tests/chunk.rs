@@ -35,7 +35,7 @@ fn the_tree_nests_as_the_phrases_do() {
 #[test]
 fn text_draws_the_tree_and_explain_names_the_rules() {
     let drawn = run("chunk", &["--format", "text", "--explain"], "find the mug behind the couch\n").expect_code(0).out;
-    assert!(drawn.contains("OBTP") && drawn.contains("└─ FURRP") && drawn.contains("by furniture"), "{drawn}");
+    assert!(drawn.contains("OBTP") && drawn.contains("└─ FURRP") && drawn.contains("{rel} {list}"), "{drawn}");
 }
 
 #[test]

@@ -156,8 +156,8 @@ fn what_is_left_beside_the_records_is_named_when_it_cannot_be_made() {
     }
     let ran = run("perceive", &["--overlay", "/proc/left"], frame_line()).expect_code(1);
     assert!(ran.err.contains("/proc/left"), "{}", ran.err);
-    for arguments in [["frames", "--count", "1"], ["train", "--count", "1"]] {
-        let ran = run("evaluate", &[&arguments[..], &["-o", "/proc/left"]].concat(), "").expect_code(1);
+    for arguments in [["frames", "--count", "1", "--into"], ["train", "--count", "1", "-o"]] {
+        let ran = run("evaluate", &[&arguments[..], &["/proc/left"]].concat(), "").expect_code(1);
         assert!(ran.err.contains("/proc/left"), "{arguments:?}: {}", ran.err);
     }
 }
@@ -213,7 +213,7 @@ fn a_run_that_ends_early_leaves_nothing_half_written() {
 #[test]
 fn interrupted_pictures_are_whole_or_not_there() {
     let folder = tempfile::tempdir().expect("a folder");
-    let arguments = ["frames", "--count", "5000", "-o", folder.path().to_str().expect("UTF-8")];
+    let arguments = ["frames", "--count", "5000", "--into", folder.path().to_str().expect("UTF-8")];
     let child = start("evaluate", &arguments, Stdio::null());
     let pictures = || std::fs::read_dir(folder.path()).expect("readable").count();
     while pictures() < 9 {

@@ -73,7 +73,7 @@ fn masks_are_read_from_png_files_and_pictures_drawn() {
     let svg = ["--svg", pictures.to_str().expect("UTF-8")];
     let hof = run("hof", &svg, &record).expect_code(0).records().remove(0);
     assert_eq!(hof["hof"]["forces"]["0"][0], 1.0);
-    let drawn = std::fs::read_to_string(pictures.join("x_1.svg")).expect("a picture");
+    let drawn = std::fs::read_to_string(pictures.join("x%2F1.svg")).expect("a picture");
     assert!(drawn.starts_with("<svg") && drawn.contains("directly to the right of"), "{drawn}");
     let again = run("hof", &svg, &record).expect_code(1).err;
     assert!(again.contains("exists") && again.contains("--force"), "{again}");

@@ -245,6 +245,8 @@ impl Pilot<'_> {
             if !progress.goes_on(distance, self.base.time_s()) {
                 return Err(Halt::Stuck(format!("it gets no nearer to ({:.1}, {:.1})", point.x, point.y)));
             }
+            // What was heard is of where the robot is, not of where it will be when it is told.
+            let free = free - there.distance_to(self.pose().position());
             let fastest = self.speed_toward(distance.min(free), speed);
             self.tick(fastest * off.cos().max(0.0), (1.5 * off).clamp(-TURN_RAD_S, TURN_RAD_S))?;
             if self.is_held() {

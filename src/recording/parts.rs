@@ -120,7 +120,7 @@ impl Iterator for Parts {
 /// times; the recordings come in the order in which their first parts were named.
 pub fn recordings(paths: Vec<PathBuf>) -> Vec<Vec<PathBuf>> {
     if paths.len() < 2 {
-        return vec![paths];
+        return paths.into_iter().map(|path| vec![path]).collect();
     }
     let span = |path: &PathBuf| {
         // Opening a pipe would take it from whoever writes to it.

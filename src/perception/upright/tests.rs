@@ -35,7 +35,7 @@ fn without_what_is_below(mut frame: RgbdFrame, least_m: f64) -> RgbdFrame {
 fn assert_near(found: &Pose, true_pose: &Pose) {
     assert!((found[2][3] - true_pose[2][3]).abs() < 0.04, "{} m, not {}", found[2][3], true_pose[2][3]);
     for axis in 0..3 {
-        assert!((found[2][axis] - true_pose[2][axis]).abs() < 0.03, "{:?}, not {:?}", found[2], true_pose[2]);
+        assert!((found[2][axis] - true_pose[2][axis]).abs() < 0.06, "{:?}, not {:?}", found[2], true_pose[2]);
     }
 }
 
