@@ -100,8 +100,8 @@ fn a_regression_fails_when_asked_to() {
 fn failures_are_charged_and_told() {
     let folder = tempfile::tempdir().expect("a folder");
     let gold = few(folder.path());
-    // Labelled for the other room: whatever is understood, it is not that.
-    let wrong = std::fs::read_to_string(&gold).expect("readable").replacen(r#""side": "right""#, r#""side": "left""#, 1);
+    // Labelled with furniture that the words do not mean: whatever is understood, it is not that.
+    let wrong = std::fs::read_to_string(&gold).expect("readable").replacen("round-table-1", "coffee-table-1", 1);
     std::fs::write(&gold, wrong).expect("written");
     let text = run("evaluate", &["blame", "--gold", &gold, "--format", "text"], "").expect_code(0).out;
     assert!(text.contains("1 of 3 descriptions failed: 33.3 % (6.1–79.2)"), "{text}");

@@ -92,8 +92,7 @@ pub fn meaning_of_label(tag: Tag, label: Option<&str>) -> Meaning {
 }
 
 fn direction_of(name: &str) -> Option<Direction> {
-    use Direction::{Back, Between, Central, Front, Left, Right, Side};
-    [Front, Back, Left, Right, Central, Side, Between].into_iter().find(|direction| direction.name() == name)
+    Direction::from_name(name)
 }
 
 impl Meaning {

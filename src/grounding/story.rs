@@ -249,7 +249,7 @@ impl<'r> Story<'r> {
         let told = at > 0 && self.phrases[at - 1].kind == Kind::Object && self.phrases[at - 1].past == phrase.first;
         let nodes = &mut self.grounding.nodes;
         let Some(node) = nodes.iter_mut().rev().find(|node| node.target.is_some()) else { return false };
-        if !told || node.target != self.last || !self.heard.is_empty() && false {
+        if !told || node.target != self.last {
             return false;
         }
         let Some(direction) = phrase.directions[0] else { return false };
@@ -405,7 +405,7 @@ impl<'r> Story<'r> {
         let to = phrase.relation == Some(Relation::To);
         let goes_on = self.says_to_later(at);
         match self.act {
-            Act::Put => !moved && !(goes_on && !to) && !self.is_source(at),
+            Act::Put => !moved && (to || !goes_on) && !self.is_source(at),
             Act::Fetch | Act::Give => !moved && (to || self.delivering),
             Act::Other => !moved && to && !self.heard.is_empty(),
             _ => self.delivering && !moved,

@@ -273,7 +273,7 @@ impl<'u, 't> Text<'u, 't> {
             // "Next to the terrarium": a word nobody knows is a thing when it has an article.
             Part::List => match noun.class {
                 Some(class) => class.is_furniture() || class == Class::Object,
-                None => noun.article != Article::None && !noun.generic || noun.plural && !noun.generic,
+                None => !noun.generic && (noun.article != Article::None || noun.plural),
             },
             _ => noun.class.is_none_or(|class| class.is_furniture() || class == Class::Object),
         };
@@ -337,7 +337,8 @@ impl<'u, 't> Text<'u, 't> {
             && self.units.get(other.past).is_some_and(|unit| !unit.pause && unit.has(Role::Preposition))
             && self.relation(other.past).is_some_and(|(_, past)| !self.is(past, &["it", "them"]));
         let alike = alike || part == Part::List && other.article == Article::Indefinite && other.is_furniture();
-        !clause && alike && !own_place && !(part == Part::List && self.units[other.first].has(Role::Act))
+        let asks = part == Part::List && self.units[other.first].has(Role::Act);
+        alike && !clause && !own_place && !asks
     }
 
     fn person(&self, at: usize, caught: &mut Caught) -> Option<usize> {

@@ -388,7 +388,7 @@ impl<'u> Reader<'u> {
             self.phrase.past = owner.map_or(past, |owner| owner.past);
             return;
         }
-        if !head.has(Role::Container) || !self.next(past).is_some_and(|unit| unit.lower == "of") {
+        if !head.has(Role::Container) || self.next(past).is_none_or(|unit| unit.lower != "of") {
             return;
         }
         let Some(inner) = noun_phrase(self.units, past + 1) else { return };
@@ -479,13 +479,9 @@ pub fn name_of(phrase: &NounPhrase, units: &[Unit], counted: bool) -> String {
     if let Some(contents) = phrase.contents {
         words.push(Cow::Owned(singular(one_name(&units[contents], false).as_ref())));
     }
-    for at in phrase.name..=phrase.head {
-        words.push(if at < phrase.head {
-            Cow::Owned(units[at].lower.replace([' ', '-'], "_"))
-        } else {
-            one_name(&units[at], counted)
-        });
-    }
+    let before = &units[phrase.name..phrase.head];
+    words.extend(before.iter().map(|unit| Cow::Owned(unit.lower.replace([' ', '-'], "_"))));
+    words.push(one_name(&units[phrase.head], counted));
     words.join("_")
 }
 

@@ -54,7 +54,7 @@ pub fn value(word: &str) -> Option<f64> {
 
 /// The value of number words said in a row: "forty five", "one hundred eighty".
 pub fn joined(before: f64, next: f64) -> Option<f64> {
-    let tens = before >= 20.0 && before < 100.0 && before % 10.0 == 0.0;
+    let tens = (20.0..100.0).contains(&before) && before % 10.0 == 0.0;
     if next == 100.0 && (1.0..10.0).contains(&before) {
         return Some(before * 100.0);
     }

@@ -109,5 +109,5 @@ fn text_in(cell: &Data) -> Option<String> {
 
 fn number_in(cell: &Data) -> Option<usize> {
     let number = cell.as_f64().or_else(|| cell.as_string()?.trim().parse().ok())?;
-    (number >= 1.0 && number < 1e9 && number.fract() == 0.0).then_some(number as usize)
+    ((1.0..1e9).contains(&number) && number.fract() == 0.0).then_some(number as usize)
 }

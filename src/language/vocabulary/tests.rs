@@ -60,10 +60,6 @@ fn what_the_grammar_reads_otherwise_is_no_thing() {
     for word in ["right", "left", "back", "front", "look", "will", "can", "turn", "sour", "means", "equipment", "go"] {
         assert_eq!(class(word), None, "{word}");
     }
-    for line in include_str!("../../../corpus/lexicon/words.tsv").lines().filter(|line| !line.starts_with('#')) {
-        let word = line.split('\t').next().unwrap_or_default();
-        assert_eq!(Vocabulary::embedded().nouns.find(word), None, "{word}");
-    }
 }
 
 #[test]

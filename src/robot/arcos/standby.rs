@@ -183,7 +183,10 @@ fn watch(mut pipe: &File, line: &File) -> io::Result<()> {
         wait = SILENT_AFTER;
         let mut words = [0; 64];
         match pipe.read(&mut words)? {
-            0 if open => return Ok(good_bye(line)),
+            0 if open => {
+                good_bye(line);
+                return Ok(());
+            }
             0 => return Ok(()),
             count => open = words[count - 1] == ALIVE,
         }
