@@ -191,7 +191,7 @@ fn help_puts_files_under_input() {
     for name in ["chunk", "ground", "plan", "drive"] {
         let help = run(name, &["--help"], "").expect_code(0).out;
         let heading =
-            help.split("[FILE]...\n").next().map(|before| before.lines().filter(|l| l.ends_with(':')).next_back());
+            help.split("[FILE]...\n").next().map(|before| before.lines().rfind(|l| l.ends_with(':')));
         let place = help.find("\nInput:\n").expect("a heading of its own");
         assert!(help[place..].starts_with("\nInput:\n  [FILE]..."), "{name}: {heading:?}\n{help}");
     }

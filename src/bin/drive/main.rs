@@ -84,7 +84,7 @@ impl Arguments {
         if self.robot.serves() || self.robot.is_real() {
             return Ok(self);
         }
-        self.as_recorded_in(&log, reporter)
+        self.with_options_of(&log, reporter)
     }
 
     /// Says what there is in the home.

@@ -55,7 +55,7 @@ impl Arguments {
     }
 
     /// With the options that the log says, where none were given.
-    pub fn as_recorded_in(mut self, log: &Path, reporter: &Reporter) -> Result<Self, Failure> {
+    pub fn with_options_of(mut self, log: &Path, reporter: &Reporter) -> Result<Self, Failure> {
         let Some(line) = recorded_line(log)? else { return Ok(self) };
         let failed = |what: &dyn std::fmt::Display| Failure::Failed(format!("{}: {what}", log.display()));
         let parse = |words: Vec<std::ffi::OsString>| {
