@@ -190,8 +190,7 @@ fn a_sentence_in_the_place_of_a_file_is_told_where_it_belongs() {
 fn help_puts_files_under_input() {
     for name in ["chunk", "ground", "plan", "drive"] {
         let help = run(name, &["--help"], "").expect_code(0).out;
-        let heading =
-            help.split("[FILE]...\n").next().map(|before| before.lines().rfind(|l| l.ends_with(':')));
+        let heading = help.split("[FILE]...\n").next().map(|before| before.lines().rfind(|l| l.ends_with(':')));
         let place = help.find("\nInput:\n").expect("a heading of its own");
         assert!(help[place..].starts_with("\nInput:\n  [FILE]..."), "{name}: {heading:?}\n{help}");
     }

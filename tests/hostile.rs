@@ -10,7 +10,7 @@ use common::run;
 fn growth(stage: &str, text: impl Fn(usize) -> String, count: usize) -> f64 {
     let seconds = |count: usize| {
         let begun = Instant::now();
-        run(stage, &["-j", "1"], &text(count)).expect_code(0);
+        run(stage, &["-j", "1"], text(count)).expect_code(0);
         begun.elapsed().as_secs_f64()
     };
     seconds(4 * count) / seconds(count)
@@ -34,7 +34,7 @@ fn chunks_that_overlap_are_grounded_in_linear_time() {
     };
     let grounded = |count: usize| {
         let begun = Instant::now();
-        run("ground", &["--method", "paper", "-j", "1"], &record(count));
+        run("ground", &["--method", "paper", "-j", "1"], record(count));
         begun.elapsed().as_secs_f64()
     };
     let grown = grounded(8_000) / grounded(2_000);

@@ -22,8 +22,8 @@ fn line(meaning: &Grounding) -> String {
         parts.extend(room.name.iter().map(|name| format!("in:{name}")));
         parts.extend(room.side.iter().map(|side| format!("side:{}", side.name())));
     }
-    let targets = meaning.nodes.iter().filter_map(|node| node.target.as_ref());
-    parts.extend(targets.last().map(|target| format!("on:{target}")));
+    let mut targets = meaning.nodes.iter().filter_map(|node| node.target.as_ref());
+    parts.extend(targets.next_back().map(|target| format!("on:{target}")));
     let pairs = meaning.nodes.iter().flat_map(|node| &node.pairs);
     let pairs = pairs.map(|pair| format!("{}/{}", pair.reference, pair.direction.name()));
     parts.extend(pairs.filter(|pair| pair != "move/front"));

@@ -188,7 +188,7 @@ mod tests {
     fn cells_all_at_once_are_as_squares_one_by_one() {
         let mut grid = ClearanceGrid::new(vec2(-1.0, 2.0), vec2(3.0, 5.0), 0.1, 0.7);
         let mut alike = grid.clone();
-        let solid = |x: usize, y: usize| (x * 7 + y * 13) % 41 == 0 || (x < 3 && y > 20);
+        let solid = |x: usize, y: usize| (x * 7 + y * 13).is_multiple_of(41) || (x < 3 && y > 20);
         for (x, y) in (0..40).flat_map(|x| (0..30).map(move |y| (x, y))).filter(|&(x, y)| solid(x, y)) {
             alike.add_square(alike.centre((x as i32, y as i32)), 0.1);
         }
