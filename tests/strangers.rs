@@ -77,7 +77,7 @@ fn no_two_records_of_a_run_leave_one_file() {
         let ran = run("drive", &["-j", "1", option, &file("one"), "--force", "--keep-going"], &plans).expect_code(3);
         assert_eq!(ran.err.matches("of this run; give records ids that differ").count(), 4, "{}", ran.err);
     }
-    let shapes = r##"{"id":"x","a":{"grid":{"rows":["#."]}},"b":{"grid":{"rows":[".#"]}}}"##;
+    let shapes = r##"{"id":"x","a":{"grid":{"rows":["#."],"cell_m":1}},"b":{"grid":{"rows":[".#"],"cell_m":1}}}"##;
     let ran = run("hof", &["-j", "1", "--svg", &file("roses"), "--force"], format!("{shapes}\n{shapes}\n"));
     assert!(ran.expect_code(1).err.contains("of this run"));
 }
