@@ -171,7 +171,7 @@ fn who_looks_on_sees_the_end_though_the_log_can_no_longer_be_written() {
     let said: Vec<_> = shown.said.map_while(Result::ok).collect();
     assert!(said.iter().any(|line| line.contains("pipe: Broken pipe")), "{said:?}");
     reads_little.join().expect("no panic").expect("a thousand bytes");
-    assert_eq!(shown.child.wait().expect("ends").code(), Some(1));
+    assert_eq!(shown.child.wait().expect("ends").code(), Some(3));
 }
 
 #[test]
