@@ -67,7 +67,7 @@ impl Ways<'_> {
         let first = self.cheapest(&fresh, clear).or_else(|| self.cheapest(&places, clear));
         let Some(first) = first else { return Vec::new() };
         let mut poses = vec![facing(first, centre)];
-        if furniture.detection.length.max(furniture.detection.width) > LONG_M {
+        if furniture.detection().length.max(furniture.detection().width) > LONG_M {
             let across = |point: &Vec2| angle_between(bearing(centre, *point), bearing(centre, first)) > PI / 2.0;
             let others: Vec<(f64, Vec2)> = places.into_iter().filter(|(_, point)| across(point)).collect();
             let there = Self { from: first, ..*self };
@@ -114,7 +114,7 @@ impl Ways<'_> {
     fn free_place(&self, furniture: &Furniture, angle: f64, clear: f64) -> Option<Vec2> {
         let centre = furniture.centre();
         let direction = vec2(angle.cos(), angle.sin());
-        let edge = furniture.footprint.corners().iter().map(|c| (c - centre).dot(&direction)).fold(0.0, f64::max);
+        let edge = furniture.footprint().corners().iter().map(|c| (c - centre).dot(&direction)).fold(0.0, f64::max);
         let nearest = (edge + FROM_EDGE_M).max(FROM_MIDDLE_M);
         let steps = (SLACK_M / 0.1) as usize;
         let place = |i: usize| centre + direction * (nearest + 0.1 * i as f64);

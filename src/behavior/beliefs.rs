@@ -1,16 +1,13 @@
 //! What the robot has come to believe of the furniture and the objects.
 
 use super::free_space::FreeSpace;
-use super::furniture::{Furniture, SAME_PLACE_M};
+use super::furniture::Furniture;
 use super::glimpses::Glimpses;
 use super::names::Names;
 use crate::frame::RgbdFrame;
-use crate::geometry::{Polygon, Vec2, vec2};
-use crate::perception::{ObjectSighting, View, furniture_chance};
+use crate::geometry::{Vec2, vec2};
+use crate::perception::{Fused, ObjectSighting, SAME_PLACE_M, View, associated, outline};
 use crate::record::Detection;
-
-/// What is less likely furniture than this may confirm a piece, but is not believed to be one.
-const LEAST_FURNITURE: f64 = 0.5;
 
 /// Everything seen so far.
 #[derive(Clone, Debug, Default)]
@@ -45,21 +42,22 @@ impl Beliefs {
         }
         view.objects.iter().for_each(|sighting| self.glimpses.add(sighting, here));
         let mut changed = false;
-        for detection in &view.furniture {
-            changed |= self.place(detection, here);
+        let known = associated(self.furniture.iter().map(Furniture::fused), &view.furniture);
+        for (detection, known) in view.furniture.iter().zip(known) {
+            changed |= self.place(detection, known, here);
         }
         for furniture in self.furniture.iter_mut().filter(|furniture| !furniture.holds) {
-            furniture.holds = self.glimpses.steady().any(|at| furniture.footprint.contains(at));
+            furniture.holds = self.glimpses.steady().any(|at| furniture.footprint().contains(at));
         }
         changed
     }
 
     /// Takes in what a frame shows to be empty; true when it changes what stands where.
     pub fn clear(&mut self, frame: &RgbdFrame) -> bool {
-        let outlines = self.furniture.iter().map(|furniture| (&furniture.footprint, furniture.margin()));
+        let outlines = self.furniture.iter().map(|furniture| (furniture.footprint(), furniture.margin()));
         let changed = self.free_space.take_in(frame, outlines);
         for furniture in &mut self.furniture {
-            furniture.is_empty = self.free_space.refutes(&furniture.footprint);
+            furniture.is_empty = self.free_space.refutes(furniture.footprint());
         }
         changed
     }
@@ -76,7 +74,7 @@ impl Beliefs {
         for known in &mut self.furniture {
             let shown = view.furniture.iter().any(|seen| {
                 let centre = vec2(seen.x, seen.y);
-                (known.centre() - centre).norm() < SAME_PLACE_M || known.footprint.contains(centre)
+                (known.centre() - centre).norm() < SAME_PLACE_M || known.footprint().contains(centre)
             });
             if !shown && in_plain_view(known) {
                 refuted |= known.overlook();
@@ -85,36 +83,26 @@ impl Beliefs {
         refuted
     }
 
-    fn place(&mut self, detection: &Detection, here: Vec2) -> bool {
-        if detection.footprint.len() < 3 {
-            return false;
-        }
-        let footprint = Polygon::new(detection.footprint.iter().map(|&[x, y]| vec2(x, y)).collect());
+    /// Takes in one detection: another look at the piece `known`, or a new one.
+    fn place(&mut self, detection: &Detection, known: Option<usize>, here: Vec2) -> bool {
         // Where the robot stands, nothing else does.
-        if footprint.contains(here) {
+        if outline(detection).is_none_or(|outline| outline.contains(here)) {
             return false;
         }
-        let centre = vec2(detection.x, detection.y);
-        // Associated by place, never by category: a label that flickers must not make a second item.
-        let distance = |&i: &usize| (self.furniture[i].centre() - centre).norm();
-        let near = (0..self.furniture.len()).filter(|&i| self.furniture[i].is_at(centre, &footprint));
-        if let Some(index) = near.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
-            return self.look_again(index, detection, footprint);
+        if let Some(index) = known {
+            return self.look_again(index, detection);
         }
-        if furniture_chance(detection) < LEAST_FURNITURE {
-            return false;
-        }
-        let number = self.unused_number(&detection.category, None);
-        self.furniture.push(Furniture::new(number, detection, footprint));
+        let Some(fused) = Fused::begun_by(detection) else { return false };
+        self.furniture.push(Furniture::new(self.unused_number(&detection.category, None), fused));
         true
     }
 
     /// Takes in another look at a piece; it gets another number when it is now called something else.
-    fn look_again(&mut self, index: usize, detection: &Detection, footprint: Polygon) -> bool {
-        let category = self.furniture[index].detection.category.clone();
-        let moved = self.furniture[index].look_again(detection, footprint);
-        if self.furniture[index].detection.category != category {
-            self.furniture[index].number = self.unused_number(&self.furniture[index].detection.category, Some(index));
+    fn look_again(&mut self, index: usize, detection: &Detection) -> bool {
+        let category = self.furniture[index].detection().category.clone();
+        let moved = self.furniture[index].look_again(detection);
+        if self.furniture[index].detection().category != category {
+            self.furniture[index].number = self.unused_number(&self.furniture[index].detection().category, Some(index));
         }
         moved
     }
@@ -122,7 +110,7 @@ impl Beliefs {
     /// The first number from 1 that no piece of a category has, but for one.
     fn unused_number(&self, category: &str, but: Option<usize>) -> usize {
         let others =
-            self.furniture.iter().enumerate().filter(|(i, f)| f.detection.category == category && Some(*i) != but);
+            self.furniture.iter().enumerate().filter(|(i, f)| f.detection().category == category && Some(*i) != but);
         let used: Vec<usize> = others.map(|(_, furniture)| furniture.number).collect();
         (1..).find(|number| !used.contains(number)).unwrap_or_default()
     }
@@ -136,7 +124,7 @@ impl Beliefs {
 
     /// The furniture on which a point lies, or nearest to it within half a metre.
     pub fn under(&self, point: Vec2) -> Option<usize> {
-        let near = |f: &Furniture| f.footprint.distance_to(point);
+        let near = |f: &Furniture| f.footprint().distance_to(point);
         let best =
             (0..self.furniture.len()).min_by(|&a, &b| near(&self.furniture[a]).total_cmp(&near(&self.furniture[b])))?;
         (near(&self.furniture[best]) < 0.5).then_some(best)

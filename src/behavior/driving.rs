@@ -132,7 +132,7 @@ impl Pilot<'_> {
     fn nearest_piece(&self, counts: impl Fn(&Furniture) -> bool) -> Option<(&Furniture, f64)> {
         let here = self.pose().position();
         let there = self.beliefs.furniture.iter().filter(|furniture| counts(furniture));
-        there.map(|f| (f, f.footprint.distance_to(here))).min_by(|a, b| a.1.total_cmp(&b.1))
+        there.map(|f| (f, f.footprint().distance_to(here))).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Turns to what was seen once, so near that the camera may look over it, and backs off as far as the sonars allow.

@@ -358,8 +358,8 @@ impl<'a> Executive<'a> {
         let furniture = &self.pilot.beliefs.furniture[index];
         let place = Place { room, arrived: here };
         let towards =
-            direction.and_then(|(direction, frame)| angle_of(direction, frame, place, furniture.detection.yaw));
-        let result = (furniture.footprint.clone(), towards);
+            direction.and_then(|(direction, frame)| angle_of(direction, frame, place, furniture.detection().yaw));
+        let result = (furniture.footprint().clone(), towards);
         let label = furniture.label();
         self.pilot.because(format!("by {label}"));
         Ok(Some(result))

@@ -203,7 +203,7 @@ impl<'a> Pilot<'a> {
     /// Doubts what should show in a look and does not; true when a piece is now taken to be not there.
     fn doubt(&mut self, view: &View) -> bool {
         let (pose, rooms) = (self.pose(), &self.rooms_only);
-        let outlines: Vec<Polygon> = self.beliefs.furniture.iter().map(|f| f.footprint.clone()).collect();
+        let outlines: Vec<Polygon> = self.beliefs.furniture.iter().map(|f| f.footprint().clone()).collect();
         self.beliefs.doubt(view, |furniture| {
             let centre = furniture.centre();
             let between = |other: &&Polygon| other.edges().any(|(a, b)| segments_touch(pose.position(), centre, a, b));
@@ -227,8 +227,8 @@ impl<'a> Pilot<'a> {
         self.grid = self.rooms_only.clone();
         for furniture in there {
             let margin = if self.is_bold { 0.0 } else { furniture.margin() };
-            self.beliefs.free_space.add_to(&mut self.grid, &furniture.footprint, margin);
-            self.outlines.push(furniture.footprint.clone());
+            self.beliefs.free_space.add_to(&mut self.grid, furniture.footprint(), margin);
+            self.outlines.push(furniture.footprint().clone());
         }
         for &bump in &self.beliefs.bumps {
             self.grid.add_polygon(&Polygon::rectangle(Pose::new(bump.x, bump.y, 0.0), 0.1, 0.1));

@@ -58,7 +58,7 @@ pub fn to_furniture(
     frame: Frame,
     place: Place,
 ) -> Option<f64> {
-    let gap = candidate.footprint.distance(&reference.footprint);
+    let gap = candidate.footprint().distance(reference.footprint());
     match direction {
         // What hangs over a thing or lies under it stands beside it as a robot sees it from above.
         Direction::Side | Direction::Between | Direction::Above | Direction::Under => {
@@ -67,8 +67,8 @@ pub fn to_furniture(
         Direction::Far => Some(1.0 - halving(gap, RELATED_HALVES_M)),
         Direction::Central => Some(halving((candidate.centre() - reference.centre()).norm(), BESIDE_HALVES_M)),
         _ => {
-            let angle = angle_of(direction, frame, place, reference.detection.yaw)?;
-            let (a, b) = (force::Shape::from(&candidate.footprint), force::Shape::from(&reference.footprint));
+            let angle = angle_of(direction, frame, place, reference.detection().yaw)?;
+            let (a, b) = (force::Shape::from(candidate.footprint()), force::Shape::from(reference.footprint()));
             Some(force::RelativePosition::between(&a, &b).degree(angle).a * halving(gap, RELATED_HALVES_M))
         }
     }
@@ -76,7 +76,7 @@ pub fn to_furniture(
 
 /// How well `candidate` stands between two references.
 pub fn between(candidate: &Furniture, first: &Furniture, second: &Furniture) -> f64 {
-    force::between(&(&candidate.footprint).into(), &(&first.footprint).into(), &(&second.footprint).into())
+    force::between(&candidate.footprint().into(), &first.footprint().into(), &second.footprint().into())
 }
 
 /// How well a point lies in a direction from the robot, as it stood when it reached the words.
@@ -130,7 +130,7 @@ pub fn to_room(candidate: &Furniture, direction: Direction, place: Place) -> f64
 
 fn wall_gap(candidate: &Furniture, place: Place) -> f64 {
     let gaps = place.room.outline.edges().flat_map(|(a, b)| {
-        candidate.footprint.corners().iter().map(move |&corner| crate::geometry::distance_to_segment(corner, a, b))
+        candidate.footprint().corners().iter().map(move |&corner| crate::geometry::distance_to_segment(corner, a, b))
     });
     gaps.fold(f64::INFINITY, f64::min)
 }

@@ -165,7 +165,7 @@ fn nearness(candidate: &Furniture, place: Place, sideways: f64) -> Factor {
 }
 
 fn attribute_factor(candidate: &Furniture, attribute: &str) -> Factor {
-    let seen = candidate.detection.attributes.iter().any(|a| a == attribute);
+    let seen = candidate.detection().attributes.iter().any(|a| a == attribute);
     let value = if seen { 1.0 } else { ATTRIBUTE_MISSED };
     Factor { value, reading: if seen { attribute.to_string() } else { String::new() } }
 }
@@ -259,7 +259,7 @@ pub fn references(beliefs: &Beliefs, noun: &str, lexicon: &Lexicon) -> Vec<(usiz
 fn object_factor(candidate: &Furniture, beliefs: &Beliefs, noun: &str, phrase: &str) -> Factor {
     match beliefs.sighting(Some(noun)) {
         Some(seen) => {
-            let value = if candidate.footprint.distance_to(vec2(seen.x, seen.y)) < 0.5 { 1.0 } else { 0.1 };
+            let value = if candidate.footprint().distance_to(vec2(seen.x, seen.y)) < 0.5 { 1.0 } else { 0.1 };
             Factor { value, reading: format!("{phrase} {value:.2}") }
         }
         None => Factor { value: UNSEEN, reading: format!("{phrase} not seen") },
@@ -302,7 +302,7 @@ fn best_between(candidate: &Furniture, references: &[&Furniture]) -> f64 {
 }
 
 fn beside(candidate: &Furniture, reference: &Furniture) -> f64 {
-    0.5_f64.powf(candidate.footprint.distance(&reference.footprint))
+    0.5_f64.powf(candidate.footprint().distance(reference.footprint()))
 }
 
 #[cfg(test)]

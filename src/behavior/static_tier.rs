@@ -259,7 +259,7 @@ impl Executive<'_> {
             }
             let here = self.pilot.pose().position();
             self.pilot.beliefs.furniture[index].looked_from.push(here);
-            if let Some(sighting) = self.settle_on(&furniture.footprint, object)? {
+            if let Some(sighting) = self.settle_on(furniture.footprint(), object)? {
                 self.found_at = Some(vec2(sighting.x, sighting.y));
                 return Ok(Some(format!("the {} is on {}", sighting.name.replace('_', " "), furniture.label())));
             }

@@ -70,7 +70,7 @@ pub(super) fn telling(
     let object = object.or(seen)?.replace('_', " ");
     let mut beliefs = beliefs.clone();
     beliefs.search_anew();
-    let noun = beliefs.furniture[index].detection.category.clone();
+    let noun = beliefs.furniture[index].detection().category.clone();
     let teller = Teller { beliefs, index, place, lexicon };
     let words: Vec<String> = teller.clauses(&noun).into_iter().map(|clause| clause.words).collect();
     let (noun, room) = (noun.replace('_', " "), room.replace('_', " "));
@@ -130,11 +130,11 @@ impl Teller<'_> {
     /// Relations to the kinds of furniture that stand near.
     fn landmarks(&self) -> Vec<Clause> {
         let piece = &self.beliefs.furniture[self.index];
-        let category = &piece.detection.category;
+        let category = &piece.detection().category;
         // "The table next to the table" would be either.
-        let near = self.beliefs.furniture.iter().filter(|other| other.detection.category != *category);
-        let near = near.filter(|other| other.footprint.distance(&piece.footprint) < NEAR_M);
-        let mut nouns: Vec<&str> = near.map(|other| other.detection.category.as_str()).collect();
+        let near = self.beliefs.furniture.iter().filter(|other| other.detection().category != *category);
+        let near = near.filter(|other| other.footprint().distance(piece.footprint()) < NEAR_M);
+        let mut nouns: Vec<&str> = near.map(|other| other.detection().category.as_str()).collect();
         nouns.sort_unstable();
         nouns.dedup();
         let relations = |noun: &&str| {

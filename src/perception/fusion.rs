@@ -1,214 +1,227 @@
-//! Several views of one room made into one: what stands where, as all of them together tell.
+//! Several looks at one room made into one: what stands where, as all of them together tell.
 //!
-//! Detections are associated by footprint, never by label: gating on a label
-//! that flickers would double the furniture. Class posteriors multiply, boxes
-//! are averaged.
+//! The one fusion there is: `perceive --fuse` writes it, and what a robot
+//! believes of furniture is made of it. Looks are associated by place, never
+//! by label: gating on a label that flickers would double the furniture.
+//! The category is voted for; the best looks tell where it stands.
 
 use std::collections::BTreeMap;
 
-use super::detector::{overlap, rounded};
-use crate::geometry::{Polygon, Pose, Vec2, vec2, wrap_angle};
+use super::detector::{furniture_chance, rounded};
+use crate::geometry::{Polygon, Vec2, vec2};
 use crate::record::Detection;
 
-/// Views of one thing are not independent: each counts this much of a whole one.
-const INDEPENDENCE: f64 = 0.7;
-/// What no view has named is still this likely.
-const UNNAMED: f64 = 0.01;
-/// Share of the smaller footprint that must be common to both.
-const LEAST_SHARED: f64 = 0.45;
-/// Things of very different height are not one, metres.
+/// Two detections closer than this, or overlapping, are one piece of furniture, metres.
+pub const SAME_PLACE_M: f64 = 0.35;
+/// What is less likely furniture than this may confirm a piece, but is not believed to be one.
+const LEAST_FURNITURE: f64 = 0.5;
+/// A look at least this sure, against the surest so far, moves what is believed of place and outline.
+const AS_GOOD: f64 = 0.9;
+/// How far such a look moves it at least, a share of the difference: the first looks are averaged, and what the robot
+/// believes of its own place shifts slowly.
+const LEAST_BLEND: f64 = 0.3;
+/// Looks that disagree by less agree, and more than the second is never kept away from, metres.
+const SAME_M: f64 = 0.03;
+const MOST_MARGIN_M: f64 = 0.08;
+/// Things of more different height are not one, metres.
 const MOST_HEIGHT_M: f64 = 0.6;
+/// What stands on a thing covers less of the floor than this share of it.
+const ON_SHARE: f64 = 0.4;
+/// What moved by less has not moved, metres.
+const MOVED_M: f64 = 0.02;
+/// Less likely categories are not told.
+const LEAST_TOLD: f64 = 0.02;
 
-/// The furniture of a room as many views show it.
-#[derive(Clone, Debug, Default)]
-pub struct FurnitureMap {
-    tracks: Vec<Track>,
-    /// Frames so far.
-    frames: usize,
-}
-
-/// One piece, and every view of it.
+/// One piece of furniture, from all looks at it together.
 #[derive(Clone, Debug)]
-struct Track {
-    views: Vec<View>,
+pub struct Fused {
+    detection: Detection,
+    footprint: Polygon,
+    /// What all looks together say of its category: probabilities added up, the surer looks' counting more.
+    votes: BTreeMap<String, f64>,
+    /// What the looks count together.
+    weight: f64,
+    /// Squares of how far corners of later looks lay outside the outline believed before, added up, square metres.
+    scatter: f64,
+    looks: u32,
 }
 
-/// What one frame shows of a piece.
-#[derive(Clone, Debug)]
-struct View {
-    frame: usize,
-    seen: Detection,
-}
+impl Fused {
+    /// The first look; none for what has no outline, or is hardly furniture.
+    pub fn begun_by(detection: &Detection) -> Option<Self> {
+        let footprint = outline(detection)?;
+        (furniture_chance(detection) >= LEAST_FURNITURE).then(|| {
+            let detection = detection.clone();
+            let votes = BTreeMap::new();
+            let mut fused = Self { footprint, votes, weight: 0.0, scatter: 0.0, looks: 0, detection };
+            fused.count(&fused.detection.clone());
+            fused
+        })
+    }
 
-impl FurnitureMap {
-    /// Adds what one frame shows; all detections must be in the same world.
-    pub fn add(&mut self, furniture: &[Detection]) {
-        let known = self.tracks.len();
-        let fused: Vec<Detection> = self.tracks.iter().map(Track::fused).collect();
-        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-        for (i, detection) in furniture.iter().enumerate() {
-            let one = fused.iter().enumerate().filter(|(_, track)| shared(track, detection) > LEAST_SHARED);
-            pairs.extend(one.map(|(j, track)| (likeness(track, detection), i, j)));
+    /// The best look at it, under the category that most looks speak for.
+    pub fn detection(&self) -> &Detection {
+        &self.detection
+    }
+
+    /// Its outline on the floor.
+    pub fn footprint(&self) -> &Polygon {
+        &self.footprint
+    }
+
+    /// The middle of the footprint.
+    pub fn centre(&self) -> Vec2 {
+        vec2(self.detection.x, self.detection.y)
+    }
+
+    /// How many looks showed it.
+    pub fn looks(&self) -> u32 {
+        self.looks
+    }
+
+    /// How likely it is of a category for which `is` holds, 0 to 1, by all looks.
+    pub fn chance(&self, is: impl Fn(&str) -> bool) -> f64 {
+        let votes: f64 = self.votes.iter().filter(|(category, _)| is(category)).map(|(_, votes)| votes).sum();
+        votes / self.weight.max(1e-9)
+    }
+
+    /// How far it may reach beyond its outline, metres, by how much the looks at it disagree.
+    pub fn margin(&self) -> f64 {
+        let spread = (self.scatter / (f64::from(self.looks) - 1.0).max(1.0)).sqrt();
+        (spread - SAME_M).clamp(0.0, MOST_MARGIN_M)
+    }
+
+    /// Whether a look may be one at this: it stands there, and is not of another height altogether.
+    fn may_be(&self, detection: &Detection, outline: &Polygon) -> bool {
+        let centre = vec2(detection.x, detection.y);
+        let is_there = (self.centre() - centre).norm() < SAME_PLACE_M
+            || self.footprint.contains(centre)
+            || outline.contains(self.centre());
+        is_there && (self.detection.height - detection.height).abs() < MOST_HEIGHT_M
+    }
+
+    /// How well a look agrees with it in outline and height.
+    fn likeness(&self, detection: &Detection, outline: &Polygon) -> f64 {
+        let higher = (self.detection.height - detection.height).abs() / MOST_HEIGHT_M;
+        self.footprint.overlap(outline) + 0.5 * (1.0 - higher)
+    }
+
+    /// Takes in another look; true when the piece is not where it was believed to be.
+    pub fn look_again(&mut self, detection: &Detection) -> bool {
+        let Some(footprint) = outline(detection) else { return false };
+        let from = self.centre();
+        let off = footprint.corners().iter().map(|&corner| self.footprint.distance_to(corner)).fold(0.0, f64::max);
+        self.scatter += off * off;
+        if detection.confidence >= AS_GOOD * self.detection.confidence {
+            let blend = (1.0 / (f64::from(self.looks) + 1.0)).max(LEAST_BLEND);
+            let shift = (from - vec2(detection.x, detection.y)) * (1.0 - blend);
+            self.footprint = Polygon::new(footprint.corners().iter().map(|corner| corner + shift).collect());
+            let yaw = detection.yaw.or(self.detection.yaw);
+            let confidence = detection.confidence.max(self.detection.confidence);
+            self.detection = Detection { yaw, confidence, ..detection.clone() };
+            self.detection.x += shift.x;
+            self.detection.y += shift.y;
         }
-        pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-        let mut taken = vec![false; furniture.len()];
-        let mut matched = vec![false; known];
-        for (_, i, j) in pairs {
-            if !taken[i] && !matched[j] {
-                (taken[i], matched[j]) = (true, true);
-                self.tracks[j].views.push(View { frame: self.frames, seen: furniture[i].clone() });
-            }
+        self.count(detection);
+        (self.centre() - from).norm() > MOVED_M
+    }
+
+    /// Adds a look's word on the category; the likeliest by all looks is what the piece is called.
+    fn count(&mut self, detection: &Detection) {
+        self.looks += 1;
+        let weight = detection.confidence.powi(2).max(1e-6);
+        self.weight += weight;
+        if detection.scores.is_empty() {
+            *self.votes.entry(detection.category.clone()).or_default() += weight * detection.confidence;
         }
-        let fresh = furniture.iter().zip(&taken).filter(|(_, taken)| !**taken);
-        let begun = fresh.map(|(seen, _)| Track { views: vec![View { frame: self.frames, seen: seen.clone() }] });
-        self.tracks.extend(begun);
-        self.frames += 1;
-    }
-
-    /// What stands in the room, the surest first.
-    pub fn furniture(&self) -> Vec<Detection> {
-        let mut joined = self.clone();
-        joined.join_doubles();
-        let mut furniture: Vec<Detection> = joined.tracks.iter().map(Track::fused).collect();
-        furniture.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
-        furniture
-    }
-
-    /// Two tracks that began apart and grew into one another are one, unless one frame showed both, one on the other:
-    /// a lamp on its table.
-    fn join_doubles(&mut self) {
-        let mut first = 0;
-        while first < self.tracks.len() {
-            let mine = self.tracks[first].fused();
-            let rest = first + 1..self.tracks.len();
-            let double = rest.into_iter().find(|other| {
-                let (other, their) = (&self.tracks[*other], self.tracks[*other].fused());
-                shared(&mine, &their) > 0.6 && !(is_on(&mine, &their) && self.tracks[first].was_seen_with(other))
-            });
-            match double {
-                Some(other) => {
-                    let gone = self.tracks.remove(other);
-                    self.tracks[first].views.extend(gone.views);
-                }
-                None => first += 1,
-            }
+        for (category, score) in &detection.scores {
+            *self.votes.entry(category.clone()).or_default() += weight * score;
+        }
+        // The first of equals in the alphabet, so that the same looks give the same name.
+        let best = self.votes.iter().fold(None, |best: Option<(&String, f64)>, (category, &votes)| match best {
+            Some((_, most)) if most >= votes => best,
+            _ => Some((category, votes)),
+        });
+        if let Some((category, _)) = best {
+            self.detection.category.clone_from(category);
         }
     }
-}
 
-impl Track {
-    fn was_seen_with(&self, other: &Self) -> bool {
-        self.views.iter().any(|view| other.views.iter().any(|theirs| theirs.frame == view.frame))
-    }
-
-    fn seen(&self) -> impl Iterator<Item = &Detection> {
-        self.views.iter().map(|view| &view.seen)
-    }
-
-    fn fused(&self) -> Detection {
-        let scores = self.scores();
-        let best = scores.iter().fold(("", 0.0), |best, (name, p)| if *p > best.1 { (name, *p) } else { best });
-        let first = &self.views[0].seen;
-        let surest = self.seen().fold(first, |s, view| if view.confidence > s.confidence { view } else { s });
-        // The surest view of the category that won tells how it stands.
-        let of_best = self.seen().filter(|view| view.category == best.0);
-        let model = of_best.fold(None::<&Detection>, |s, v| s.filter(|s| s.confidence >= v.confidence).or(Some(v)));
-        let model = model.unwrap_or(surest);
-        let missed = self.seen().map(|view| 1.0 - view.confidence).product::<f64>();
-        let (pose, [length, width, height]) = self.average(model, best.0);
-        let mut fused = Detection {
-            category: best.0.to_string(),
-            confidence: best.1 * (1.0 - missed),
-            x: pose.x,
-            y: pose.y,
-            yaw: model.yaw.map(|_| pose.heading),
-            length,
-            width,
-            height,
-            footprint: Polygon::rectangle(pose, length, width).corners().iter().map(|c| [c.x, c.y]).collect(),
-            attributes: model.attributes.clone(),
-            why: if self.views.len() > 1 {
-                format!("{} views; {}", self.views.len(), model.why)
-            } else {
-                model.why.clone()
-            },
-            scores: BTreeMap::new(),
-        };
-        fused.scores = scores.into_iter().filter(|(_, p)| *p >= 0.02).collect();
-        rounded(fused)
-    }
-
-    /// The product of the views' posteriors, each weighed by how sure it is that there is furniture at all.
-    fn scores(&self) -> BTreeMap<String, f64> {
-        let names: Vec<&String> = self.seen().flat_map(|view| view.scores.keys()).collect();
-        let mut logs: BTreeMap<String, f64> = names.into_iter().map(|name| (name.clone(), 0.0)).collect();
-        for (name, log) in &mut logs {
-            let chance = |view: &Detection| view.scores.get(name).copied().unwrap_or(0.0).max(UNNAMED);
-            let power = if self.views.len() > 1 { INDEPENDENCE } else { 1.0 };
-            *log = self.seen().map(|view| chance(view).ln() * power).sum();
-        }
-        let most = logs.values().copied().fold(f64::NEG_INFINITY, f64::max);
-        let sum: f64 = logs.values().map(|log| (log - most).exp()).sum();
-        logs.into_iter().map(|(name, log)| (name, (log - most).exp() / sum)).collect()
-    }
-
-    /// The mean box of the views that stand as the model does, the surer ones counting more.
-    fn average(&self, model: &Detection, category: &str) -> (Pose, [f64; 3]) {
-        let heading = heading(model);
-        let (mut middle, mut sides, mut total) = (Vec2::zeros(), [0.0; 3], 0.0);
-        let (mut sin, mut cos) = (0.0, 0.0);
-        for view in self.seen() {
-            let turn = self::heading(view) - heading;
-            let quarter = (turn / std::f64::consts::FRAC_PI_2).round();
-            let off = wrap_angle(turn - quarter * std::f64::consts::FRAC_PI_2);
-            if off.abs() > 0.3 {
-                continue;
-            }
-            // A box is completed to what the view takes the piece for.
-            let agrees = view.scores.get(category).copied().unwrap_or(0.0);
-            let weight = (view.confidence * agrees).powi(2).max(1e-6);
-            let (length, width) =
-                if quarter.rem_euclid(2.0) == 0.0 { (view.length, view.width) } else { (view.width, view.length) };
-            middle += vec2(view.x, view.y) * weight;
-            [length, width, view.height].iter().zip(&mut sides).for_each(|(v, s)| *s += v * weight);
-            (sin, cos) = (sin + off.sin() * weight, cos + off.cos() * weight);
-            total += weight;
-        }
-        let middle = middle / total;
-        let heading = wrap_angle(heading + sin.atan2(cos));
-        (Pose::new(middle.x, middle.y, heading), sides.map(|side| side / total))
+    /// All looks as one detection.
+    fn told(&self) -> Detection {
+        let share = |votes: f64| votes / self.weight.max(1e-9);
+        let scores = self.votes.iter().map(|(category, &votes)| (category.clone(), share(votes)));
+        let why = &self.detection.why;
+        rounded(Detection {
+            confidence: self.chance(|category| category == self.detection.category),
+            scores: scores.filter(|(_, score)| *score >= LEAST_TOLD).collect(),
+            footprint: self.footprint.corners().iter().map(|corner| [corner.x, corner.y]).collect(),
+            why: if self.looks > 1 { format!("{} views; {why}", self.looks) } else { why.clone() },
+            ..self.detection.clone()
+        })
     }
 }
 
-/// The heading of the length, where there is no front too.
-fn heading(detection: &Detection) -> f64 {
-    detection.yaw.unwrap_or_else(|| match detection.footprint.as_slice() {
-        [a, b, ..] if detection.footprint.len() == 4 => (b[1] - a[1]).atan2(b[0] - a[0]),
-        _ => 0.0,
-    })
-}
-
-/// How well two that may be one agree in footprint and height.
-fn likeness(a: &Detection, b: &Detection) -> f64 {
-    overlap(a, b) + 0.5 * (1.0 - (a.height - b.height).abs() / MOST_HEIGHT_M)
+/// For each detection of one look the piece that it is another look at: among those that stand where it was seen, the
+/// one most like it. Two detections of one look are two things where one stands on the other, as a lamp on its table;
+/// else an eye has divided one.
+pub fn associated<'f>(pieces: impl Iterator<Item = &'f Fused>, seen: &[Detection]) -> Vec<Option<usize>> {
+    let pieces: Vec<&Fused> = pieces.collect();
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    for (detection, i) in seen.iter().zip(0..) {
+        let Some(outline) = outline(detection) else { continue };
+        let there = pieces.iter().zip(0..).filter(|(piece, _)| piece.may_be(detection, &outline));
+        pairs.extend(there.map(|(piece, j)| (piece.likeness(detection, &outline), i, j)));
+    }
+    pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let mut found: Vec<Option<usize>> = vec![None; seen.len()];
+    for &(_, i, j) in &pairs {
+        let taken = found.iter().zip(seen).find(|(known, _)| **known == Some(j)).map(|(_, by)| by);
+        if found[i].is_none() && taken.is_none_or(|by| !is_on(&seen[i], by)) {
+            found[i] = Some(j);
+        }
+    }
+    found
 }
 
 /// Whether one may stand on the other: it is much smaller.
 fn is_on(a: &Detection, b: &Detection) -> bool {
     let (a, b) = (a.length * a.width, b.length * b.width);
-    a.min(b) < 0.4 * a.max(b)
+    a.min(b) < ON_SHARE * a.max(b)
 }
 
-/// Share of the smaller footprint that lies in both, zero for things of very different height.
-fn shared(a: &Detection, b: &Detection) -> f64 {
-    if (a.height - b.height).abs() > MOST_HEIGHT_M || a.footprint.len() < 3 || b.footprint.len() < 3 {
-        return 0.0;
+/// The footprint as a polygon; none where fewer than three corners tell it.
+pub fn outline(detection: &Detection) -> Option<Polygon> {
+    let corners = || detection.footprint.iter().map(|&[x, y]| vec2(x, y)).collect();
+    (detection.footprint.len() >= 3).then(|| Polygon::new(corners()))
+}
+
+/// The furniture of a room as many views show it.
+#[derive(Clone, Debug, Default)]
+pub struct FurnitureMap {
+    pieces: Vec<Fused>,
+}
+
+impl FurnitureMap {
+    /// Adds what one frame shows; all detections must be in the same world.
+    pub fn add(&mut self, furniture: &[Detection]) {
+        let known = associated(self.pieces.iter(), furniture);
+        for (detection, known) in furniture.iter().zip(known) {
+            match known {
+                Some(index) => {
+                    self.pieces[index].look_again(detection);
+                }
+                None => self.pieces.extend(Fused::begun_by(detection)),
+            }
+        }
     }
-    let polygon = |d: &Detection| Polygon::new(d.footprint.iter().map(|c| vec2(c[0], c[1])).collect());
-    let (a, b) = (polygon(a), polygon(b));
-    let overlap = a.overlap(&b);
-    let common = overlap * (a.area() + b.area()) / (1.0 + overlap);
-    common / a.area().min(b.area()).max(1e-6)
+
+    /// What stands in the room, the surest first.
+    pub fn furniture(&self) -> Vec<Detection> {
+        let mut furniture: Vec<Detection> = self.pieces.iter().map(Fused::told).collect();
+        furniture.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
+        furniture
+    }
 }
 
 #[cfg(test)]

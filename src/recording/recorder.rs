@@ -167,7 +167,7 @@ impl Watcher for Recorder {
     fn furniture(&mut self, time_s: f64, furniture: &[Furniture]) {
         let pieces: Vec<ShownPiece> = furniture
             .iter()
-            .map(|f| ShownPiece { label: f.label(), corners: f.footprint.corners(), height: f.detection.height })
+            .map(|f| ShownPiece { label: f.label(), corners: f.footprint().corners(), height: f.detection().height })
             .collect();
         self.log.believed(time_s, &pieces);
     }
