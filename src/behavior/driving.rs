@@ -71,7 +71,9 @@ impl Pilot<'_> {
                 if rescues > MOST_RESCUES {
                     return Err(Halt::Blocked("held fast while turning".to_string()));
                 }
-                self.back_off(self.freer_end())?;
+                // What holds it may be above the sonars: where the freer end did not help, the other may.
+                let freer = self.freer_end();
+                self.back_off(if rescues % 2 == 1 { freer } else { freer.other() })?;
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::pilot::{Halt, Pilot, TICK_S};
 use super::progress::PATIENCE_S;
-use crate::geometry::{Vec2, vec2};
+use crate::geometry::{Polygon, Pose, Vec2, vec2};
 use crate::robot::SonarReading;
 
 /// The sonar's last word: nothing ahead nearer than this, metres from the sonar.
@@ -15,16 +15,28 @@ const SONAR_AGE_S: f64 = 0.32;
 const CREEP_M_S: f64 = 0.1;
 /// How far the robot backs off from what it touched, metres.
 const BACK_OFF_M: f64 = 0.25;
+/// Getting nowhere for so long, it is held at that end, seconds.
+const IN_VAIN_S: f64 = 1.5;
 /// How far it creeps to make room for a turn: past a bed that stands abreast, metres.
 const MAKE_ROOM_M: f64 = 1.5;
 /// What is heard so little ahead or behind stands abreast, metres.
 const ABREAST_M: f64 = 0.1;
+
+/// Nor where what the eyes have seen would come nearer than this to its outline, metres, so far on.
+const KEPT_M: f64 = 0.03;
+const NEXT_M: f64 = 0.06;
 
 /// The robot's two ends.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
     Front,
     Rear,
+}
+
+impl End {
+    pub(super) fn other(self) -> Self {
+        if self == Self::Front { Self::Rear } else { Self::Front }
+    }
 }
 
 impl Pilot<'_> {
@@ -42,6 +54,28 @@ impl Pilot<'_> {
             End::Front => self.free_ahead(),
             End::Rear => self.nearest(|bearing| bearing >= std::f64::consts::PI - GUARD_RAD),
         }
+    }
+
+    /// Whether moving on takes no room for a turn beside what the eyes have seen, which the sonars may not hear.
+    fn keeps_room(&self, toward: End) -> bool {
+        let here = self.pose();
+        let there = here.to_world(vec2(if toward == End::Front { NEXT_M } else { -NEXT_M }, 0.0));
+        self.outlines.iter().all(|outline| {
+            let left = outline.distance_to(there);
+            left >= self.clearances.heard || left >= outline.distance_to(here.position())
+        })
+    }
+
+    /// Whether moving on keeps clear of what the eyes have seen: the top of a table is above the sonars.
+    fn keeps_clear(&self, toward: End) -> bool {
+        let here = self.pose();
+        let there = here.to_world(vec2(if toward == End::Front { NEXT_M } else { -NEXT_M }, 0.0));
+        let (now, then) = (self.body.outline(here), self.body.outline(Pose::new(there.x, there.y, here.heading)));
+        let clear = |outline: &Polygon| {
+            let left = outline.distance(&then);
+            left >= KEPT_M || left >= outline.distance(&now)
+        };
+        self.outlines.iter().all(clear)
     }
 
     /// At which end there is more room.
@@ -102,9 +136,15 @@ impl Pilot<'_> {
 
     /// Creeps a little way back or ahead, as far as the sonars there allow.
     pub(super) fn back_off(&mut self, toward: End) -> Result<(), Halt> {
-        let from = self.pose();
+        let (from, began_s) = (self.pose(), self.base.time_s());
         for _ in 0..(2.0 * BACK_OFF_M / CREEP_M_S / TICK_S) as usize {
-            if self.free(toward) < GUARD_M || self.pose().distance_to(from.position()) >= BACK_OFF_M {
+            let gone = self.pose().distance_to(from.position());
+            let is_in_vain = self.base.time_s() - began_s > IN_VAIN_S && gone < KEPT_M;
+            if is_in_vain
+                || self.free(toward) < GUARD_M
+                || !self.keeps_clear(toward)
+                || self.pose().distance_to(from.position()) >= BACK_OFF_M
+            {
                 break;
             }
             self.creep(toward)?;
@@ -127,6 +167,9 @@ impl Pilot<'_> {
             let away = if nearest.x < 0.0 { End::Front } else { End::Rear };
             let toward = if is_abreast { *past.get_or_insert(self.freer_end()) } else { away };
             if lacks <= 0.0 || self.free(toward) < GUARD_M + if is_abreast { ABREAST_M } else { lacks } {
+                break;
+            }
+            if !self.keeps_room(toward) || self.is_held() {
                 break;
             }
             self.creep(toward)?;

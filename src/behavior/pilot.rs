@@ -64,7 +64,7 @@ pub struct Pilot<'a> {
     rooms_only: ClearanceGrid,
     pub(super) grid: ClearanceGrid,
     /// Outlines of all furniture seen, which the sonars may hear instead of a wall.
-    outlines: Vec<Polygon>,
+    pub(super) outlines: Vec<Polygon>,
     /// Whether outlines are taken at their word, nothing being thought to reach beyond them, and narrow gaps are passed.
     pub(super) is_bold: bool,
     time_limit_s: f64,

@@ -49,7 +49,7 @@ pub use detector::{Detector, furniture_chance};
 pub use external::{ExternalDetector, ExternalError};
 pub use frame_error::FrameError;
 pub use frame_files::{FrameFiles, check};
-pub use fusion::{Fused, FurnitureMap, SAME_PLACE_M, associated, outline};
+pub use fusion::{FurnitureMap, Fused, SAME_PLACE_M, associated, outline};
 pub use model::Model;
 pub use overlay::overlay;
 pub use scenes::{GridMap, SceneRecord, SceneView, Scenes, scene_of};

@@ -27,7 +27,8 @@ impl Watcher for Story {
 
     fn furniture(&mut self, time_s: f64, furniture: &[Furniture]) {
         let there = furniture.iter().filter(|piece| !piece.is_refuted());
-        self.believed.push((time_s, there.map(|piece| (piece.label(), piece.footprint().corners().to_vec())).collect()));
+        self.believed
+            .push((time_s, there.map(|piece| (piece.label(), piece.footprint().corners().to_vec())).collect()));
     }
 
     fn seen(&mut self, time_s: f64, _view: &View) {
