@@ -236,18 +236,27 @@ pub const MCAP_RECORD_BYTES: Limit = Limit {
 /// Bytes of a chunk of an MCAP log, unpacked.
 pub const MCAP_CHUNK_BYTES: Limit = Limit {
     name: "a chunk of an MCAP log, unpacked",
-    value: 1 << 28,
+    value: 384 << 20,
     unit: "bytes",
-    reason: "a chunk is held whole until its checksum is known",
+    reason: "a chunk is held whole until its checksum is known, and its messages beside it",
     lifted_by: None,
 };
 
 /// Unpacked bytes of a chunk for each packed one.
 pub const MCAP_CHUNK_RATIO: Limit = Limit {
-    name: "a chunk of an MCAP log, beyond 16 MiB",
+    name: "a chunk of an MCAP log",
     value: 200,
     unit: "unpacked bytes for each packed one",
     reason: "pictures pack by 2 to 50; 22 kB that unpack to gigabytes are no recording",
+    lifted_by: None,
+};
+
+/// Bytes to which the chunks of a log unpack that are beyond the ratio.
+pub const MCAP_PACKED_WELL_BYTES: Limit = Limit {
+    name: "the chunks of an MCAP log beyond that ratio, together",
+    value: 512 << 20,
+    unit: "unpacked bytes",
+    reason: "a few that hold zeros are sound, thousands are a trap",
     lifted_by: None,
 };
 
@@ -316,6 +325,7 @@ pub const ALL: &[Limit] = &[
     MCAP_RECORD_BYTES,
     MCAP_CHUNK_BYTES,
     MCAP_CHUNK_RATIO,
+    MCAP_PACKED_WELL_BYTES,
     MCAP_WAITING,
     TRANSFORM_CHAIN,
     DETECTOR_SECONDS,

@@ -6,12 +6,13 @@ use std::io::Cursor;
 use std::path::Path;
 use std::time::Duration;
 
+use spatial_fetch::cli::TrialOptions;
 use spatial_fetch::evaluation::{import, parse_tree, read_gold, score, with_texts};
 use spatial_fetch::force::{AxesName, Describer, ForceName};
 use spatial_fetch::frame::{decode_color, decode_depth, picture_size};
 use spatial_fetch::grounding::{GroundStage, Grounder, Method, Settings};
 use spatial_fetch::language::{Chunker, chunk_text};
-use spatial_fetch::map::RoomMap;
+use spatial_fetch::map::{RoomMap, SHIPPED_MAPS};
 use spatial_fetch::planning::Planner;
 use spatial_fetch::record::{Chunk, Detection, Plan, Record, Stage};
 use spatial_fetch::recording::{FrameOptions, FrameReader, LogReader, RecordReader, Window};
@@ -36,6 +37,7 @@ pub const TARGETS: &[Target] = &[
     ("map_server", map_server),
     ("mcap", mcap),
     ("meshes", meshes),
+    ("options", options),
     ("packets", packets),
     ("plans", plans),
     ("record", record),
@@ -147,6 +149,19 @@ pub fn meshes(data: &[u8]) {
             let _ = (scene.furniture[0].footprint(), scene.furniture[0].solids());
         }
     });
+}
+
+/// Any bytes as the options in a log: within their ranges and of a shipped home, or refused by name.
+pub fn options(data: &[u8]) {
+    let usual = br#"{"noise":"default","perception":"truth","depth_noise":1.0,"depth_loss":0.02,"light":1.0,"blind":false,
+        "one_frame":false,"first_pair_only":false,"no_fallback":false,"no_glance":false,"no_localization":false,
+        "time_limit":900.0,"seed":0}"#;
+    let usual: TrialOptions = serde_json::from_slice(usual).expect("what a program told nothing takes");
+    if let Ok(replayed) = usual.replaying(data, &usual, |_| false) {
+        let TrialOptions { world, map, time_limit, depth_noise, .. } = replayed.options;
+        assert!([&world, &map].into_iter().flatten().all(|home| SHIPPED_MAPS.iter().any(|shipped| shipped.name == home.as_str())));
+        assert!(time_limit.is_finite() && depth_noise.is_finite() && depth_noise >= 0.0);
+    }
 }
 
 /// Any JSON as what a detector answers.

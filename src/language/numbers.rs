@@ -4,7 +4,8 @@
 pub fn value(word: &str) -> Option<f64> {
     if word.as_bytes().first().is_some_and(u8::is_ascii_digit) {
         let number = word.strip_suffix("th").or_else(|| word.strip_suffix('°')).unwrap_or(word);
-        return number.replace(',', ".").parse().ok().filter(|value: &f64| value.is_finite());
+        let plain = if is_grouped(number) { number.replace(',', "") } else { number.replace(',', ".") };
+        return plain.parse().ok().filter(|value: &f64| value.is_finite());
     }
     let small = [
         "zero",
@@ -52,6 +53,16 @@ pub fn value(word: &str) -> Option<f64> {
     })
 }
 
+/// "1,000" and "12,500,000": commas that part thousands. "0,125" is a decimal number, for nobody groups from zero.
+fn is_grouped(number: &str) -> bool {
+    let mut groups = number.split(',');
+    let first = groups.next().unwrap_or_default();
+    let is_first = (1..=3).contains(&first.len()) && !first.starts_with('0');
+    let rest: Vec<&str> = groups.collect();
+    let is_group = |group: &&str| group.len() == 3 && group.bytes().all(|byte| byte.is_ascii_digit());
+    is_first && !rest.is_empty() && rest.iter().all(|group| is_group(&group))
+}
+
 /// The value of number words said in a row: "forty five", "one hundred eighty".
 pub fn joined(before: f64, next: f64) -> Option<f64> {
     let tens = (20.0..100.0).contains(&before) && before % 10.0 == 0.0;
@@ -82,5 +93,11 @@ mod tests {
         assert_eq!([value("45"), value("0,5"), value("1.5")], [Some(45.0), Some(0.5), Some(1.5)]);
         assert_eq!([value("forty"), value("forty-five"), value("table")], [Some(40.0), Some(45.0), None]);
         assert_eq!([joined(40.0, 5.0), joined(100.0, 80.0), joined(2.0, 3.0)], [Some(45.0), Some(180.0), None]);
+    }
+
+    #[test]
+    fn a_comma_before_three_digits_parts_thousands_and_any_other_is_a_decimal_mark() {
+        assert_eq!([value("1,000"), value("12,500,000")], [Some(1000.0), Some(12_500_000.0)]);
+        assert_eq!([value("0,125"), value("2,50"), value("1.000")], [Some(0.125), Some(2.5), Some(1.0)]);
     }
 }

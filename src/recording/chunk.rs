@@ -10,7 +10,7 @@ use mcap::records::{Record, op};
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
 use super::link::link;
-use crate::limits::{MCAP_CHUNK_BYTES, MCAP_CHUNK_RATIO, MCAP_RECORD_BYTES};
+use crate::limits::{MCAP_CHUNK_BYTES, MCAP_CHUNK_RATIO, MCAP_PACKED_WELL_BYTES, MCAP_RECORD_BYTES};
 
 /// What a chunk held.
 #[derive(Default)]
@@ -59,33 +59,52 @@ impl Messages {
     }
 }
 
-/// Chunks up to this size are unpacked however small they were packed: pictures of nothing pack well.
-const ALWAYS_UNPACKED: u64 = 1 << 24;
+/// What the chunks of one log may yet unpack to beyond their ratio, all together, bytes: a picture of nothing, or one
+/// map of zeros, packs well and is sound, and a log of nothing else is none.
+pub(super) struct Allowance(u64);
 
-/// What is wrong with the size that a chunk's head says it unpacks to.
-fn oversized(body: &[u8]) -> Option<String> {
-    let size = u64::from_le_bytes(body.get(16..24)?.try_into().ok()?);
-    if size <= ALWAYS_UNPACKED {
-        None
-    } else if size > MCAP_CHUNK_BYTES.value {
-        Some(MCAP_CHUNK_BYTES.exceeded(&size.to_string()))
-    } else {
+impl Default for Allowance {
+    fn default() -> Self {
+        Self(MCAP_PACKED_WELL_BYTES.value)
+    }
+}
+
+impl Allowance {
+    /// What is wrong with the size that a chunk's head says it unpacks to.
+    fn exceeded(&mut self, body: &[u8]) -> Option<String> {
+        let size = u64::from_le_bytes(body.get(16..24)?.try_into().ok()?);
+        if size > MCAP_CHUNK_BYTES.value {
+            return Some(MCAP_CHUNK_BYTES.exceeded(&size.to_string()));
+        }
         let ratio = size / (body.len() as u64).max(1);
-        (ratio > MCAP_CHUNK_RATIO.value).then(|| MCAP_CHUNK_RATIO.exceeded(&ratio.to_string()))
+        if ratio <= MCAP_CHUNK_RATIO.value {
+            return None;
+        }
+        match self.0.checked_sub(size) {
+            Some(left) => self.0 = left,
+            None => return Some(MCAP_CHUNK_RATIO.exceeded(&ratio.to_string())),
+        }
+        None
     }
 }
 
 /// Unpacks a chunk record whose header promises `length` bytes, of which `body` are there.
 ///
 /// When `checked`, nothing comes out of a chunk that fails its checksum.
-pub(super) fn unpack(length: u64, body: &[u8], links: &mut ChannelAccumulator<'static>, checked: bool) -> Unpacked {
+pub(super) fn unpack(
+    length: u64,
+    body: &[u8],
+    links: &mut ChannelAccumulator<'static>,
+    allowance: &mut Allowance,
+    checked: bool,
+) -> Unpacked {
     let options = LinearReaderOptions::default()
         .with_skip_start_magic(true)
         .with_skip_end_magic(true)
         .with_validate_chunk_crcs(checked)
         .with_prevalidate_chunk_crcs(checked)
         .with_record_length_limit(MCAP_RECORD_BYTES.count());
-    if let Some(damage) = oversized(body) {
+    if let Some(damage) = allowance.exceeded(body) {
         return Unpacked { damage: Some(damage), ..Unpacked::default() };
     }
     let body = before_overrun(body);
@@ -161,16 +180,24 @@ mod tests {
         body
     }
 
+    fn unpacked(body: &[u8], allowance: &mut Allowance) -> Unpacked {
+        unpack(body.len() as u64, body, &mut ChannelAccumulator::default(), allowance, false)
+    }
+
     #[test]
-    fn a_chunk_that_says_it_unpacks_to_too_much_is_not_unpacked() {
-        let claiming = |size: u64, packed: usize| {
+    fn a_log_of_chunks_that_say_they_unpack_to_far_more_than_they_are_is_not_unpacked_beyond_its_allowance() {
+        let mut allowance = Allowance::default();
+        let mut claiming = |size: u64, packed: usize| {
             let mut body = vec![0; packed];
             body[16..24].copy_from_slice(&size.to_le_bytes());
-            unpack(packed as u64, &body, &mut ChannelAccumulator::default(), false).damage.unwrap_or_default()
+            unpacked(&body, &mut allowance).damage.unwrap_or_default()
         };
-        assert!(claiming(1 << 40, 100).contains("bytes are more than the 268435456"));
-        assert!(claiming(1 << 27, 22_000).contains("6100 unpacked bytes for each packed one are more than the 200"));
-        assert!(!claiming(1 << 24, 100).contains("more than"));
+        assert!(claiming(1 << 40, 100).contains("bytes are more than the 402653184"));
+        assert!(!claiming(300_000_000, 152_000).contains("more than"), "one such chunk may be sound");
+        assert!(
+            claiming(300_000_000, 152_000).contains("1973 unpacked bytes for each packed one are more than the 200")
+        );
+        assert!(!claiming(300_000_000, 1_600_000).contains("more than"), "what packs less well is not counted");
     }
 
     #[test]
@@ -178,7 +205,7 @@ mod tests {
         assert_eq!(before_overrun(&chunk(12 + 109)).len(), 40 + 12 + 109);
         let cut = chunk(12 + 20);
         assert_eq!(before_overrun(&cut).len(), 40 + 12);
-        let unpacked = unpack(cut.len() as u64, &cut, &mut ChannelAccumulator::default(), false);
+        let unpacked = unpacked(&cut, &mut Allowance::default());
         assert!(unpacked.damage.is_some() && unpacked.messages.count() == 0);
     }
 }

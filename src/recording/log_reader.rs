@@ -11,7 +11,7 @@ use mcap::Message;
 use mcap::read::{ChannelAccumulator, parse_record};
 use mcap::records::{Record, op};
 
-use super::chunk::{Messages, unpack};
+use super::chunk::{Allowance, Messages, unpack};
 use super::link::link;
 use super::{LogError, Loss};
 use crate::limits::MCAP_RECORD_BYTES;
@@ -35,6 +35,7 @@ pub struct LogReader<R> {
     at_byte: u64,
     checksum: crc32fast::Hasher,
     links: ChannelAccumulator<'static>,
+    allowance: Allowance,
     /// What is left of the last chunk; it comes before what is ready.
     chunk: Messages,
     ready: VecDeque<Result<Message<'static>, Loss>>,
@@ -72,6 +73,7 @@ impl<R: Read> LogReader<R> {
             at_byte: magic.len() as u64,
             checksum,
             links: ChannelAccumulator::default(),
+            allowance: Allowance::default(),
             chunk: Messages::default(),
             ready: VecDeque::new(),
             whole: true,
@@ -156,7 +158,7 @@ impl<R: Read> LogReader<R> {
     }
 
     fn take_chunk(&mut self, begins: u64, body: &[u8]) {
-        let (messages, loss) = messages_of_chunk(begins, body, &mut self.links, self.recover);
+        let (messages, loss) = messages_of_chunk(begins, body, &mut self.links, &mut self.allowance, self.recover);
         self.whole &= loss.is_none();
         self.chunk = messages;
         self.ready.extend(loss.map(Err));
@@ -164,7 +166,7 @@ impl<R: Read> LogReader<R> {
 
     /// Takes what can be unpacked of a damaged or cut chunk.
     fn salvage(&mut self, begins: u64, length: u64, body: &[u8]) {
-        let (messages, loss) = salvaged(begins, length, body, &mut self.links);
+        let (messages, loss) = salvaged(begins, length, body, &mut self.links, &mut self.allowance);
         self.chunk = messages;
         self.ready.push_back(Err(loss));
     }
@@ -242,20 +244,27 @@ pub(super) fn messages_of_chunk(
     begins: u64,
     body: &[u8],
     links: &mut ChannelAccumulator<'static>,
+    allowance: &mut Allowance,
     recover: bool,
 ) -> (Messages, Option<Loss>) {
-    let unpacked = unpack(body.len() as u64, body, links, true);
+    let unpacked = unpack(body.len() as u64, body, links, allowance, true);
     let Some(damage) = unpacked.damage else { return (unpacked.messages, None) };
     if recover {
-        let (messages, loss) = salvaged(begins, body.len() as u64, body, links);
+        let (messages, loss) = salvaged(begins, body.len() as u64, body, links, allowance);
         return (messages, Some(loss));
     }
     let hint = "its messages are left out; --recover takes what can be unpacked, unchecked";
     (Messages::default(), Some(Loss::at(begins, format!("damaged chunk ({damage}): {hint}"))))
 }
 
-fn salvaged(begins: u64, length: u64, body: &[u8], links: &mut ChannelAccumulator<'static>) -> (Messages, Loss) {
-    let unpacked = unpack(length, body, links, false);
+fn salvaged(
+    begins: u64,
+    length: u64,
+    body: &[u8],
+    links: &mut ChannelAccumulator<'static>,
+    allowance: &mut Allowance,
+) -> (Messages, Loss) {
+    let unpacked = unpack(length, body, links, allowance, false);
     let messages = unpacked.messages;
     let damage = unpacked.damage.map_or(String::new(), |damage| format!(" ({damage})"));
     let what = format!("damaged chunk{damage}: {} messages salvaged, which no checksum vouches for", messages.count());

@@ -9,7 +9,7 @@ use mcap::read::ChannelAccumulator;
 use mcap::records::op;
 
 use super::Loss;
-use super::chunk::{Messages, unpack};
+use super::chunk::{Allowance, Messages, unpack};
 use super::link::link;
 use super::log_reader::messages_of_chunk;
 use super::survey::{Entry, Survey};
@@ -27,6 +27,7 @@ pub struct SortedLog {
     recover: bool,
     entries: VecDeque<Entry>,
     links: ChannelAccumulator<'static>,
+    allowance: Allowance,
     /// By the time of the next message of each, and by the order read.
     pending: BTreeMap<(u64, u64), Held>,
     count: u64,
@@ -42,6 +43,7 @@ impl SortedLog {
             recover,
             entries: entries.into(),
             links: ChannelAccumulator::default(),
+            allowance: Allowance::default(),
             pending: BTreeMap::new(),
             count: 0,
             lost: VecDeque::new(),
@@ -61,10 +63,11 @@ impl SortedLog {
     fn link_chunks(&mut self) -> io::Result<()> {
         let mut places: Vec<u64> = self.entries.iter().map(|entry| entry.at_byte).collect();
         places.sort_unstable();
+        let mut allowance = Allowance::default();
         for at in places {
             let (opcode, body) = self.record(at)?;
             if opcode == op::CHUNK {
-                unpack(body.len() as u64, &body, &mut self.links, true);
+                unpack(body.len() as u64, &body, &mut self.links, &mut allowance, true);
             }
         }
         Ok(())
@@ -91,7 +94,8 @@ impl SortedLog {
         };
         self.count += 1;
         if opcode == op::CHUNK {
-            let (messages, loss) = messages_of_chunk(entry.at_byte, &body, &mut self.links, self.recover);
+            let (messages, loss) =
+                messages_of_chunk(entry.at_byte, &body, &mut self.links, &mut self.allowance, self.recover);
             self.lost.extend(loss);
             return self.hold(messages, self.count);
         }
