@@ -1,0 +1,21 @@
+//! A robot that runs ROS: `/cmd_vel` out, `/odom` and what measures distances in.
+//!
+//! [`Transport`] carries messages in our own plain types; the base above it
+//! knows no ROS version. Nothing of ROS need be installed. ROS 1 is spoken
+//! here ([`ros1`]): the crates that speak it bring OpenSSL.
+
+mod base;
+mod beams;
+mod body_file;
+mod message;
+mod names;
+mod track;
+mod transport;
+
+pub mod ros1;
+
+pub use base::{RosBase, RosSettings};
+pub use body_file::{BodyFile, shipped_bodies};
+pub use message::{Header, Kind, Message, Odometry, Picture, Scan, Transform};
+pub use names::Names;
+pub use transport::{Incoming, RosError, Transport};
