@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use crate::geometry::Pose;
 use super::{SonarReading, Status};
+use crate::geometry::Pose;
 
 /// The latest state of the robot.
 #[derive(Clone, Debug, Default)]

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::beams::{Frames, of_cloud, of_range, of_scan};
@@ -52,6 +53,8 @@ pub struct RosSettings {
     pub program: Option<OsString>,
     /// Where the robot stands in the map, unless it tells by `map → odom`.
     pub start: Pose,
+    /// Where its own odometry begins in the map, told here for its camera.
+    pub origin: Arc<Mutex<Pose>>,
 }
 
 /// Connects to ROS bases.
@@ -216,8 +219,13 @@ impl Client {
     /// Topics of this kind that there are.
     fn others(&self, kind: Kind) -> Result<String, RosError> {
         let topics = self.transport.topics()?;
-        let those: Vec<String> = topics.into_iter().filter(|(_, name)| name == kind.name()).map(|(topic, _)| topic).collect();
-        Ok(if those.is_empty() { format!("there is no {}", kind.name()) } else { format!("there is {}", those.join(", ")) })
+        let those: Vec<String> =
+            topics.into_iter().filter(|(_, name)| name == kind.name()).map(|(topic, _)| topic).collect();
+        Ok(if those.is_empty() {
+            format!("there is no {}", kind.name())
+        } else {
+            format!("there is {}", those.join(", "))
+        })
     }
 
     fn await_that(&mut self, most: Duration, there: impl Fn(&Self) -> bool) -> Result<(), RosError> {
@@ -236,7 +244,8 @@ impl Client {
         let (linear, angular) = (body.speed_m_s, body.turn_rad_s);
         let heard: Vec<&str> = self.ears.keys().map(String::as_str).collect();
         let ears = if heard.is_empty() {
-            "nothing that measures distances (no /scan, /sonar or Range): it stops only for what its camera has seen".into()
+            "nothing that measures distances (no /scan, /sonar or Range): it stops only for what its camera has seen"
+                .into()
         } else {
             format!("distances by {}", heard.join(", "))
         };
@@ -312,7 +321,8 @@ impl Client {
     fn place_of(&mut self, frame: &str) -> Option<nalgebra::Isometry3<f64>> {
         let found = self.frames.within(&self.base_frame, frame);
         if found.is_none() && self.now() > PLACED_WITHIN {
-            let what = format!("no transform tells where `{frame}` is on `{}`; it is taken for its middle", self.base_frame);
+            let what =
+                format!("no transform tells where `{frame}` is on `{}`; it is taken for its middle", self.base_frame);
             if !self.remarks.contains_key("place") {
                 self.remark("place", what);
             }
@@ -324,7 +334,10 @@ impl Client {
     fn take_readings(&mut self, topic: &str, readings: Option<Vec<SonarReading>>) {
         let now = self.now();
         let Some(readings) = readings else {
-            self.remark("nonsense", format!("{topic}: nothing measured in this message, or no numbers; it is passed over"));
+            self.remark(
+                "nonsense",
+                format!("{topic}: nothing measured in this message, or no numbers; it is passed over"),
+            );
             return;
         };
         if let Some(ears) = self.ears.get_mut(topic) {
@@ -366,7 +379,10 @@ impl Client {
         self.watch_clock(odometry.header.stamp_s, now);
         let before = self.report.heard_at;
         if !self.track.take(odometry, now) {
-            self.remark("jump", format!("{}: its pose jumps or is no number; going on from where the robot was", self.odometry));
+            self.remark(
+                "jump",
+                format!("{}: its pose jumps or is no number; going on from where the robot was", self.odometry),
+            );
         }
         let (linear, angular) = odometry.velocity;
         if linear.is_finite() && angular.is_finite() {
@@ -377,12 +393,14 @@ impl Client {
             let wait = now.saturating_sub(before).min(SILENCE);
             self.cycle = (self.cycle * 7 + wait) / 8;
         }
-        (self.base_frame, self.odometry_frame) = (odometry.child.trim_start_matches('/').into(), odometry.header.frame.clone());
+        (self.base_frame, self.odometry_frame) =
+            (odometry.child.trim_start_matches('/').into(), odometry.header.frame.clone());
         self.report.sips += 1;
         self.report.heard_at = now;
         self.report.dead_time = self.cycle + BASE_ANSWERS;
         self.report.distance_m = self.track.distance_m();
         self.report.pose = self.pose();
+        self.tell_origin();
         if std::mem::take(&mut self.silent) {
             self.note(format!("{} is heard again", self.odometry));
         }
@@ -406,9 +424,20 @@ impl Client {
 
     /// From the start: by the robot's own localization when it has one, by odometry else.
     fn pose(&self) -> Pose {
-        let (Some(odometry), Some(own)) = (self.map_from_odometry(), self.track.own()) else { return self.track.pose() };
+        let (Some(odometry), Some(own)) = (self.map_from_odometry(), self.track.own()) else {
+            return self.track.pose();
+        };
         let at = self.settings.start.to_local(odometry.to_world(own.position()));
         Pose::new(at.x, at.y, wrap_angle(odometry.heading + own.heading - self.settings.start.heading))
+    }
+
+    fn tell_origin(&self) {
+        let Some(own) = self.track.own() else { return };
+        let at = self.settings.start.to_world(self.report.pose.position());
+        let turned = wrap_angle(self.settings.start.heading + self.report.pose.heading - own.heading);
+        let back = Pose::new(0.0, 0.0, turned).to_world(own.position());
+        let origin = Pose::new(at.x - back.x, at.y - back.y, turned);
+        *self.settings.origin.lock().unwrap_or_else(PoisonError::into_inner) = origin;
     }
 
     /// What is silent for too long, and for how long.
@@ -435,7 +464,8 @@ impl Client {
         }
         let fresh = self.ask.filter(|(_, _, at)| now.saturating_sub(*at) <= self.settings.deadline);
         let wanted = fresh.filter(|_| silence.is_none() && self.report.held.is_none());
-        let (linear, angular, is_new) = wanted.map_or((0.0, 0.0, false), |(linear, angular, at)| (linear, angular, at > self.told_at));
+        let (linear, angular, is_new) =
+            wanted.map_or((0.0, 0.0, false), |(linear, angular, at)| (linear, angular, at > self.told_at));
         let (linear, why) = guarded_speed(linear, &self.report);
         if let Some(why) = why {
             self.remark("guard", why);

@@ -45,7 +45,8 @@ impl Frames {
     /// Where `frame` is in `base`, when the transforms tell.
     pub fn within(&self, base: &str, frame: &str) -> Option<Isometry3<f64>> {
         let up = |from: &str| {
-            let (mut chain, mut name, mut place) = (vec![(from.to_string(), Isometry3::identity())], from, Isometry3::identity());
+            let (mut chain, mut name, mut place) =
+                (vec![(from.to_string(), Isometry3::identity())], from, Isometry3::identity());
             while let Some((parent, in_parent)) = self.0.get(name)
                 && chain.len() < LONGEST_CHAIN
             {
@@ -159,9 +160,9 @@ pub fn of_cloud(points: &[[f32; 3]], place: &Isometry3<f64>, body: &Body) -> Opt
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Pose;
     use crate::robot::p3dx;
     use crate::robot::ros::Header;
-    use crate::geometry::Pose;
 
     fn scan(of: impl Fn(f64) -> f32) -> Scan {
         let step_rad = TAU / 360.0;
@@ -183,7 +184,10 @@ mod tests {
 
     #[test]
     fn a_scanner_that_hangs_upside_down_does_not_swap_left_and_right() {
-        let place = Isometry3::from_parts(Translation3::identity(), UnitQuaternion::from_euler_angles(std::f64::consts::PI, 0.0, 0.0));
+        let place = Isometry3::from_parts(
+            Translation3::identity(),
+            UnitQuaternion::from_euler_angles(std::f64::consts::PI, 0.0, 0.0),
+        );
         // By its own bearings at the right: the robot's left.
         let left = scan(|bearing| if angle_between(bearing, -1.57).abs() < 0.1 { 1.0 } else { f32::INFINITY });
         let readings = of_scan(&left, &place, &p3dx::BODY).expect("usable");

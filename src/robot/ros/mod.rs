@@ -4,6 +4,7 @@
 //! knows no ROS version. Nothing of ROS need be installed. ROS 1 is spoken
 //! here ([`ros1`]): the crates that speak it bring OpenSSL.
 
+mod address;
 mod base;
 mod beams;
 mod body_file;
@@ -14,8 +15,9 @@ mod transport;
 
 pub mod ros1;
 
+pub use address::master_of;
 pub use base::{RosBase, RosSettings};
 pub use body_file::{BodyFile, shipped_bodies};
 pub use message::{Header, Kind, Message, Odometry, Picture, Scan, Transform};
-pub use names::Names;
+pub use names::{Names, remapping};
 pub use transport::{Incoming, RosError, Transport};

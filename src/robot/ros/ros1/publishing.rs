@@ -106,7 +106,8 @@ impl Publications {
         let fields = [("callerid", caller), ("md5sum", sum(kind)), ("type", kind.name()), ("latching", latching)];
         send_head(&stream, &[fields.as_slice(), &[("message_definition", "")]].concat())?;
         let guard = publication.guard.as_ref();
-        let second = guard.and_then(|(program, words)| Second::start(program, stream.try_clone().ok()?.into(), words).ok());
+        let second =
+            guard.and_then(|(program, words)| Second::start(program, stream.try_clone().ok()?.into(), words).ok());
         let (queue, messages) = sync_channel::<Arc<Vec<u8>>>(WAITING);
         if let Some(Some(last)) = &publication.latched {
             let _ = queue.try_send(Arc::clone(last));

@@ -58,7 +58,9 @@ pub fn read_block(stream: &TcpStream, most: usize, goes_on: impl Fn() -> bool) -
     read_all(stream, &mut length, &goes_on)?;
     let length = u32::from_le_bytes(length) as usize;
     if length > most {
-        return Err(bad(&format!("a message of {length} bytes is announced: more than {most}, or the wrong endianness")));
+        return Err(bad(&format!(
+            "a message of {length} bytes is announced: more than {most}, or the wrong endianness"
+        )));
     }
     // No more is set aside than comes.
     let mut bytes = Vec::new();

@@ -80,10 +80,14 @@ fn bad(what: &str) -> io::Error {
 /// # Errors
 /// When nobody answers, or not in XML-RPC.
 pub fn call(place: &str, method: &str, values: &[Value]) -> io::Result<Value> {
-    let body = format!("<?xml version=\"1.0\"?><methodCall><methodName>{method}</methodName>{}</methodCall>", parameters(values));
+    let body = format!(
+        "<?xml version=\"1.0\"?><methodCall><methodName>{method}</methodName>{}</methodCall>",
+        parameters(values)
+    );
     let mut stream = connect(place)?;
     let length = body.len();
-    let head = format!("POST /RPC2 HTTP/1.0\r\nHost: {place}\r\nContent-Type: text/xml\r\nContent-Length: {length}\r\n\r\n");
+    let head =
+        format!("POST /RPC2 HTTP/1.0\r\nHost: {place}\r\nContent-Type: text/xml\r\nContent-Length: {length}\r\n\r\n");
     stream.write_all((head + &body).as_bytes())?;
     let (_, values) = read(&stream)?;
     values.into_iter().next().ok_or(bad("an empty answer"))
@@ -116,7 +120,8 @@ pub fn serve(stream: &TcpStream, answer: impl FnOnce(&str, &[Value]) -> Value) -
     stream.set_read_timeout(Some(WITHIN))?;
     stream.set_write_timeout(Some(WITHIN))?;
     let (method, values) = read(stream)?;
-    let body = format!("<?xml version=\"1.0\"?><methodResponse>{}</methodResponse>", parameters(&[answer(&method, &values)]));
+    let body =
+        format!("<?xml version=\"1.0\"?><methodResponse>{}</methodResponse>", parameters(&[answer(&method, &values)]));
     let length = body.len();
     let head = format!("HTTP/1.0 200 OK\r\nContent-Type: text/xml\r\nContent-Length: {length}\r\n\r\n");
     let mut stream = stream;
