@@ -479,7 +479,7 @@ impl Client {
         let changed = (linear, angular) != self.told;
         if !stands {
             self.zero_at = None;
-        } else if changed || is_new {
+        } else if changed {
             self.zero_at = Some(now);
         }
         let idle = stands && self.zero_at.is_none_or(|at| now.saturating_sub(at) > STANDS_FOR);
@@ -529,6 +529,7 @@ impl Driven for Client {
             self.listen(STOP_AGAIN);
             std::thread::sleep(Duration::from_millis(5));
         }
+        self.transport.leave();
     }
 
     fn report(&self) -> &Report {

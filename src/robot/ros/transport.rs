@@ -65,4 +65,7 @@ pub trait Transport: Send {
 
     /// Lets a second process of `program` say `zero` to each listener of `topic` when this one is killed or stopped.
     fn guard(&mut self, program: &OsStr, topic: &str, zero: &Message);
+
+    /// Says good-bye, when it has not been said; nothing more is said or heard.
+    fn leave(&mut self);
 }

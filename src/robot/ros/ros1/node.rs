@@ -242,15 +242,21 @@ impl Transport for Ros1 {
         let framed = [(zero.len() as u32).to_le_bytes().as_slice(), &zero].concat();
         self.publications.guard(topic, program.to_os_string(), Words { zero: framed, ends: Vec::new() });
     }
-}
 
-impl Drop for Ros1 {
-    fn drop(&mut self) {
-        self.closed.store(true, Ordering::Relaxed);
+    fn leave(&mut self) {
+        if self.closed.swap(true, Ordering::Relaxed) {
+            return;
+        }
         self.subscriptions.close();
         if !self.is_lost() {
             self.master.leave(&self.publications.topics(), &self.subscriptions.topics());
         }
         self.publications.close();
+    }
+}
+
+impl Drop for Ros1 {
+    fn drop(&mut self) {
+        self.leave();
     }
 }
