@@ -153,13 +153,19 @@ pub fn meshes(data: &[u8]) {
 
 /// Any bytes as the options in a log: within their ranges and of a shipped home, or refused by name.
 pub fn options(data: &[u8]) {
-    let usual = br#"{"noise":"default","perception":"truth","depth_noise":1.0,"depth_loss":0.02,"light":1.0,"blind":false,
+    let usual =
+        br#"{"noise":"default","perception":"truth","depth_noise":1.0,"depth_loss":0.02,"light":1.0,"blind":false,
         "one_frame":false,"first_pair_only":false,"no_fallback":false,"no_glance":false,"no_localization":false,
         "time_limit":900.0,"seed":0}"#;
     let usual: TrialOptions = serde_json::from_slice(usual).expect("what a program told nothing takes");
     if let Ok(replayed) = usual.replaying(data, &usual, |_| false) {
         let TrialOptions { world, map, time_limit, depth_noise, .. } = replayed.options;
-        assert!([&world, &map].into_iter().flatten().all(|home| SHIPPED_MAPS.iter().any(|shipped| shipped.name == home.as_str())));
+        assert!(
+            [&world, &map]
+                .into_iter()
+                .flatten()
+                .all(|home| SHIPPED_MAPS.iter().any(|shipped| shipped.name == home.as_str()))
+        );
         assert!(time_limit.is_finite() && depth_noise.is_finite() && depth_noise >= 0.0);
     }
 }

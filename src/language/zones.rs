@@ -98,8 +98,7 @@ impl<'t> Words<'_, 't> {
         let next = |is: &dyn Fn(&Unit) -> bool| self.units.get(at + 1).is_some_and(is);
         let noun = self.unit(at).is_some_and(|unit| {
             let leads_to_noun = unit.has(Role::Adjective) || unit.is_unknown();
-            unit.noun.is_some() && at > self.first
-                || leads_to_noun && next(&|next| next.noun.is_some() && !next.pause)
+            unit.noun.is_some() && at > self.first || leads_to_noun && next(&|next| next.noun.is_some() && !next.pause)
         });
         noun || self.is(at, &["there"]) && !next(&|next| next.has(Role::Copula) || next.has(Role::Modal))
     }

@@ -1,6 +1,7 @@
 //! `plan` as a stage of the pipeline.
 
 use super::actions::actions_for;
+use super::nouns::misspelt;
 use super::rooms::{RoomChoice, choose_room, names};
 use crate::language::Lexicon;
 use crate::map::RoomMap;
@@ -45,6 +46,7 @@ impl Planner {
         let not: Vec<String> = grounding.not.iter().map(|not| not.name.clone()).collect();
         rule_out_rooms(&mut choice, &self.rooms_of(&not), &self.map);
         plan.problems.extend(choice.problem);
+        plan.problems.extend(misspelt(grounding, self.lexicon));
         if choice.fatal || is_empty(grounding) {
             return choice.room;
         }
