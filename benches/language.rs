@@ -15,6 +15,13 @@ fn chunk(bencher: divan::Bencher) {
     bencher.counter(divan::counter::ItemsCount::new(1_usize)).bench(|| chunk_text(divan::black_box(SPOKEN)));
 }
 
+/// What one speaker says without an end is read in time linear in its length: four times the words, four times the time.
+#[divan::bench(args = ["of ", "the ", "back of ", "on the table ", "then go to the table "], consts = [10_000, 40_000])]
+fn chunk_without_end<const WORDS: usize>(bencher: divan::Bencher, words: &str) {
+    let text = words.repeat(WORDS);
+    bencher.bench(|| chunk_text(divan::black_box(&text)));
+}
+
 #[divan::bench(args = [false, true])]
 fn ground(bencher: divan::Bencher, brief: bool) {
     let (tokens, chunks) = chunk_text(SPOKEN);

@@ -32,6 +32,15 @@ pub const LINE_BYTES: Limit = Limit {
     lifted_by: None,
 };
 
+/// Bytes of the text of one record.
+pub const TEXT_BYTES: Limit = Limit {
+    name: "the text of a record",
+    value: 1 << 21,
+    unit: "bytes",
+    reason: "twenty hours of speech; its words and phrases take a hundred times its memory",
+    lifted_by: None,
+};
+
 /// Bytes of a room map, a scene, or the YAML of a `map_server` pair.
 pub const WORLD_FILE_BYTES: Limit = Limit {
     name: "a room map or scene file",
@@ -299,6 +308,7 @@ pub const DETECTOR_ANSWER_BYTES: Limit = Limit {
 /// All limits.
 pub const ALL: &[Limit] = &[
     LINE_BYTES,
+    TEXT_BYTES,
     WORLD_FILE_BYTES,
     PICTURE_FILE_BYTES,
     MESH_FILE_BYTES,

@@ -7,6 +7,7 @@ use super::pilot::Pilot;
 use super::relation::{Place, angle_of};
 use super::search::{Wanted, references};
 use super::telling::telling;
+use super::visits::{Care, visits};
 use super::{Halt, Journal, Watcher};
 use crate::geometry::{Polygon, Pose, Vec2};
 use crate::language::Lexicon;
@@ -184,16 +185,17 @@ impl<'a> Executive<'a> {
             return self.only_move(actions, &task);
         }
         let mut why = String::new();
-        for (i, room) in task.rooms.clone().iter().enumerate() {
+        let visits = visits(&task.rooms);
+        for (i, &(room, care)) in visits.iter().enumerate() {
             if let Err(halt) = self.enter(room) {
                 match halt {
-                    Halt::Blocked(reason) if i + 1 < task.rooms.len() => self.pilot.end(&format!("blocked: {reason}")),
+                    Halt::Blocked(reason) if i + 1 < visits.len() => self.pilot.end(&format!("blocked: {reason}")),
                     halt => return Err(halt),
                 }
                 continue;
             }
             let frame = RoomFrame::of(self.map, room, self.pilot.pose());
-            for action in &task.steps {
+            for action in task.steps.iter().filter(|_| care != Care::Again) {
                 self.step(action, &frame)?;
             }
             if !self.pilot.can_see() {
@@ -201,7 +203,7 @@ impl<'a> Executive<'a> {
                 self.deliver_all(actions)?;
                 return Ok((Outcome::Arrived, why));
             }
-            match self.search(&task, &frame)? {
+            match self.search(&task, &frame, care)? {
                 Ok(found) => {
                     why = found;
                     self.describe(&task, room, &frame);
@@ -215,7 +217,7 @@ impl<'a> Executive<'a> {
                 task.object = Some(object);
                 self.pilot.end(&why);
                 self.pilot.beliefs.search_anew();
-                match self.search(&task, &frame)? {
+                match self.search(&task, &frame, Care::Whole)? {
                     Ok(found) => why = format!("{why}; {found}"),
                     Err(reason) => return Ok((Outcome::NotFound, format!("{why}; {reason}"))),
                 }

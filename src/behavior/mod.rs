@@ -33,6 +33,7 @@ mod static_tier;
 mod telling;
 mod trial_record;
 mod trial_text;
+mod visits;
 mod wanted;
 mod watcher;
 

@@ -10,8 +10,9 @@ use super::names::SAME_THING_M;
 use super::regions::lookouts;
 use super::relation::Place;
 use super::search::{Ranked, Wanted, blame, rank, references};
+use super::visits::Care;
 use crate::geometry::{Polygon, Pose, Vec2, vec2};
-use crate::language::Class;
+use crate::language::{Class, Vocabulary};
 use crate::perception::ObjectSighting;
 
 /// A best candidate below this is a guess: look further before going there.
@@ -32,11 +33,11 @@ const MOST_TOLD: usize = 3;
 
 impl Executive<'_> {
     /// The static tier. `Ok` says at what the object was found, `Err` why it was not.
-    pub(super) fn search(&mut self, task: &Task, room: &RoomFrame) -> Result<Result<String, String>, Halt> {
+    pub(super) fn search(&mut self, task: &Task, room: &RoomFrame, care: Care) -> Result<Result<String, String>, Halt> {
         self.pilot.begin("search");
         self.pilot.be_bold(false);
         let arrived = self.pilot.pose();
-        if let Some(found) = self.look_for(task, room, arrived)? {
+        if let Some(found) = self.look_for(task, room, arrived, care)? {
             return Ok(Ok(found));
         }
         let object = task.object.unwrap_or("any portable object").replace('_', " ");
@@ -55,15 +56,18 @@ impl Executive<'_> {
         Ok(Err(why))
     }
 
-    fn look_for(&mut self, task: &Task, room: &RoomFrame, arrived: Pose) -> Result<Option<String>, Halt> {
-        self.pilot.sweep(SWEEP_RAD)?;
-        self.look_further(task, room, arrived)?;
-        self.study_rivals(task, room, arrived)?;
-        let mut found = self.round(task, room, arrived)?;
-        if found.is_none() && !self.options.no_fallback {
-            found = self.look_elsewhere(task, room)?;
+    fn look_for(&mut self, task: &Task, room: &RoomFrame, arrived: Pose, care: Care) -> Result<Option<String>, Halt> {
+        let mut found = None;
+        if care != Care::Again {
+            self.pilot.sweep(SWEEP_RAD)?;
+            self.look_further(task, room, arrived)?;
+            self.study_rivals(task, room, arrived)?;
+            found = self.round(task, room, arrived)?;
+            if found.is_none() && !self.options.no_fallback {
+                found = self.look_elsewhere(task, room)?;
+            }
         }
-        if found.is_none() {
+        if found.is_none() && care != Care::Once {
             self.pilot.because(
                 "a look may have missed it; looking at everything once more, from other sides and through narrower gaps",
             );
@@ -118,7 +122,8 @@ impl Executive<'_> {
             let spot = Polygon::rectangle(Pose::new(at.x, at.y, 0.0), 0.2, 0.2);
             if let Some(sighting) = self.settle_on(&spot, task.object)? {
                 self.found_at = Some(vec2(sighting.x, sighting.y));
-                return Ok(Some(format!("the {spoken} is at ({:.1}, {:.1})", sighting.x, sighting.y)));
+                let is = Vocabulary::embedded().copula(name);
+                return Ok(Some(format!("the {spoken} {is} at ({:.1}, {:.1})", sighting.x, sighting.y)));
             }
         }
         Ok(None)
@@ -261,7 +266,8 @@ impl Executive<'_> {
             self.pilot.beliefs.furniture[index].looked_from.push(here);
             if let Some(sighting) = self.settle_on(furniture.footprint(), object)? {
                 self.found_at = Some(vec2(sighting.x, sighting.y));
-                return Ok(Some(format!("the {} is on {}", sighting.name.replace('_', " "), furniture.label())));
+                let is = Vocabulary::embedded().copula(&sighting.name);
+                return Ok(Some(format!("the {} {is} on {}", sighting.name.replace('_', " "), furniture.label())));
             }
         }
         let object = object.unwrap_or("portable object").replace('_', " ");

@@ -9,7 +9,7 @@ use super::relation::Place;
 use super::search::{Wanted, rank};
 use crate::geometry::Vec2;
 use crate::grounding::usual_pair;
-use crate::language::Lexicon;
+use crate::language::{Lexicon, Vocabulary};
 use crate::planning::frames_to_try;
 use crate::record::{Direction, SearchPair};
 
@@ -75,7 +75,8 @@ pub(super) fn telling(
     let words: Vec<String> = teller.clauses(&noun).into_iter().map(|clause| clause.words).collect();
     let (noun, room) = (noun.replace('_', " "), room.replace('_', " "));
     let place = format!("on the {noun} {}", words.join(", "));
-    Some(format!("Your {object} is in the {room}, {}.", place.trim_end()))
+    let is = Vocabulary::embedded().copula(&object);
+    Some(format!("Your {object} {is} in the {room}, {}.", place.trim_end()))
 }
 
 impl Teller<'_> {

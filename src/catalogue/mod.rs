@@ -7,11 +7,13 @@
 
 mod furniture;
 mod objects;
+mod usual_rooms;
 
 pub use furniture::{
     CATEGORIES, Category, FAMILIES, FurnitureClass, FurnitureShape, Holds, Looks, Orientation, category, class_of,
 };
 pub use objects::{OBJECTS, SmallObject, object};
+pub use usual_rooms::usual_rooms;
 
 /// Red, green, blue.
 pub type Color = [u8; 3];

@@ -14,9 +14,10 @@ use super::unit::Unit;
 pub fn errands(phrases: &mut [Phrase], units: &[Unit]) -> Vec<Range<usize>> {
     let mut starts = vec![0];
     let mut so_far = SoFar::default();
+    let last_that_goes_on = phrases.iter().rposition(goes_on).unwrap_or(0);
     for at in 0..phrases.len() {
         let least = *starts.last().unwrap_or(&0);
-        if at > least && so_far.goes_elsewhere(phrases, at, units) {
+        if at > least && at >= last_that_goes_on && so_far.goes_elsewhere(phrases, at, units) {
             starts.push(at);
             so_far = SoFar::default();
         }
@@ -101,7 +102,7 @@ impl SoFar {
         (self.act.delivers() && self.placed && bare && joined && place).then_some(self.act)
     }
 
-    /// "… then go to the bedroom": a place to go to when all is done, and nothing told of it.
+    /// "… then go to the bedroom": a place to go to when all is done, of which nothing that follows tells.
     fn goes_elsewhere(&self, phrases: &[Phrase], at: usize, units: &[Unit]) -> bool {
         let phrase = &phrases[at];
         let moved =
@@ -116,14 +117,14 @@ impl SoFar {
                 || before.lower == "and" && self.act == Act::Put && self.placed
         } || phrases[at - 1].kind == Kind::Aside;
         let done = self.requested && self.asked.is_some() || self.went && !self.steps && self.asked.is_none();
-        let rest = &phrases[at + 1..];
-        let goes_on = rest.iter().any(|next| {
-            next.kind == Kind::Object
-                || matches!(next.kind, Kind::Turn | Kind::Go | Kind::Recipient)
-                || next.kind == Kind::Target && next.act != Act::None
-        });
-        moved && fresh && done && !goes_on
+        moved && fresh && done
     }
+}
+
+/// Whether a phrase tells more of the errand before it.
+fn goes_on(phrase: &Phrase) -> bool {
+    matches!(phrase.kind, Kind::Object | Kind::Turn | Kind::Go | Kind::Recipient)
+        || phrase.kind == Kind::Target && phrase.act != Act::None
 }
 
 /// Rooms and moves right before a request belong to it: "then go to the bedroom and find the mug".

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{Lexicon, chunk_with, draw_tree};
+use crate::limits::TEXT_BYTES;
 use crate::record::{Chunk, Note, Record, Stage, StageError};
 
 /// Adds `tokens` and `chunks` to records.
@@ -17,6 +18,10 @@ pub struct Chunker {
 impl Stage for Chunker {
     fn run(&self, record: &mut Record) -> Result<Note, StageError> {
         let text: String = record.require("text", "a record needs the description under this key")?;
+        if text.len() as u64 > TEXT_BYTES.value {
+            let found = text.len().to_string();
+            return Err(StageError::new(format!("`text`: {}; part it into records", TEXT_BYTES.exceeded(&found))));
+        }
         let (tokens, mut chunks) = chunk_with(&text, self.lexicon.as_deref().unwrap_or(Lexicon::embedded()));
         if !self.explain {
             chunks.iter_mut().for_each(forget_rules);

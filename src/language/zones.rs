@@ -14,76 +14,126 @@ pub struct Zone {
     pub past: usize,
 }
 
+/// More words than this before or in a part of a room are no phrase.
+const MOST_WORDS: usize = 6;
+
 /// The part of a room that begins at a position; not one whose words go on to a noun ("the back table").
 pub fn zone(units: &[Unit], first: usize) -> Option<Zone> {
-    let unit = |at: usize| units.get(at).filter(|unit| at == first || !unit.pause);
-    let has = |at: usize, role| unit(at).is_some_and(|unit| unit.has(role));
-    let is = |at: usize, words: &[&str]| unit(at).is_some_and(|unit| words.contains(&unit.lower.as_ref()));
-    let mut at = first;
-    while has(at, Role::Determiner) || has(at, Role::Hearer) || has(at, Role::Adverb) && !has(at, Role::Part) {
-        at += 1;
+    let words = Words { units, first };
+    let start = words.lead();
+    let said = words.said(start);
+    let corner = words.unit(said.past).is_some_and(|unit| unit.class() == Some(Class::Part));
+    let past = said.past + usize::from(corner);
+    let names_a_part = corner || said.depth.is_some() && past > start;
+    if !names_a_part || words.goes_on(past) || said.is_bare(&words, past, corner) {
+        return None;
     }
-    let start = at;
-    let (mut lateral, mut depth, mut far, mut head) = (None, None, false, false);
-    while at < start + 6 {
-        let Some(here) = unit(at) else { break };
-        let word = here.lower.as_ref();
-        match word {
-            "left" | "right" if here.has(Role::Side) => lateral = side(here),
-            "far" | "further" | "farther" | "furthest" | "farthest" | "other" | "opposite" => {
-                far = true;
-                depth = depth.or(Some(Direction::Back));
+    Some(Zone { directions: said.directions(corner), past })
+}
+
+/// The words from a position on, up to a pause.
+struct Words<'u, 't> {
+    units: &'u [Unit<'t>],
+    first: usize,
+}
+
+impl<'t> Words<'_, 't> {
+    fn unit(&self, at: usize) -> Option<&Unit<'t>> {
+        self.units.get(at).filter(|unit| at == self.first || !unit.pause)
+    }
+
+    fn has(&self, at: usize, role: Role) -> bool {
+        self.unit(at).is_some_and(|unit| unit.has(role))
+    }
+
+    fn is(&self, at: usize, words: &[&str]) -> bool {
+        self.unit(at).is_some_and(|unit| words.contains(&unit.lower.as_ref()))
+    }
+
+    /// Past "all the way at your".
+    fn lead(&self) -> usize {
+        let leads = |at: usize| {
+            self.has(at, Role::Determiner)
+                || self.has(at, Role::Hearer)
+                || self.has(at, Role::Adverb) && !self.has(at, Role::Part)
+        };
+        (self.first..self.first + MOST_WORDS).find(|&at| !leads(at)).unwrap_or(self.first + MOST_WORDS)
+    }
+
+    /// The words of direction from `start` on.
+    fn said(&self, start: usize) -> Said {
+        let mut said = Said { lateral: None, depth: None, far: false, head: false, past: start };
+        while said.past < start + MOST_WORDS {
+            let Some(here) = self.unit(said.past) else { break };
+            match here.lower.as_ref() {
+                "left" | "right" if here.has(Role::Side) => said.lateral = side(here),
+                "far" | "further" | "farther" | "furthest" | "farthest" | "other" | "opposite" => {
+                    said.far = true;
+                    said.depth = said.depth.or(Some(Direction::Back));
+                }
+                "back" | "rear" => said.depth = Some(Direction::Back),
+                "end" => {
+                    said.depth = said.depth.or(Some(Direction::Back));
+                    said.head = true;
+                }
+                "middle" | "center" | "centre" => said.depth = Some(Direction::Central),
+                "front" => said.depth = Some(Direction::Front),
+                "near" | "close" | "nearest" | "closest"
+                    if self.is(said.past + 1, &["end", "side", "corner", "half", "part", "left", "right"]) =>
+                {
+                    said.depth = Some(Direction::Front);
+                }
+                "side" | "half" | "part" | "area" | "hand" if said.past > start => said.head = true,
+                "very" | "most" => {}
+                _ if here.has(Role::Adjective) && said.past > start => {}
+                _ => break,
             }
-            "back" | "rear" => depth = Some(Direction::Back),
-            "end" => {
-                depth = depth.or(Some(Direction::Back));
-                head = true;
-            }
-            "middle" | "center" | "centre" => depth = Some(Direction::Central),
-            "front" => depth = Some(Direction::Front),
-            "near" | "close" | "nearest" | "closest"
-                if at + 1 < units.len()
-                    && (is(at + 1, &["end", "side", "corner", "half", "part", "left", "right"])) =>
-            {
-                depth = Some(Direction::Front);
-            }
-            "side" | "half" | "part" | "area" | "hand" if at > start => head = true,
-            "very" | "most" => {}
-            _ if here.has(Role::Adjective) && at > start => {}
-            _ => break,
+            said.past += 1;
         }
-        at += 1;
+        said
     }
-    let corner = unit(at).is_some_and(|unit| unit.class() == Some(Class::Part));
-    at += usize::from(corner);
-    let noun_follows = unit(at).is_some_and(|unit| unit.noun.is_some() && at > first)
-        || unit(at).is_some_and(|unit| {
-            (unit.has(Role::Adjective) || unit.is_unknown())
-                && units.get(at + 1).is_some_and(|next| next.noun.is_some() && !next.pause)
+
+    /// Whether the words go on to a noun, or to "there" that begins a clause of its own.
+    fn goes_on(&self, at: usize) -> bool {
+        let next = |is: &dyn Fn(&Unit) -> bool| self.units.get(at + 1).is_some_and(is);
+        let noun = self.unit(at).is_some_and(|unit| {
+            let leads_to_noun = unit.has(Role::Adjective) || unit.is_unknown();
+            unit.noun.is_some() && at > self.first || leads_to_noun && next(&|next| next.noun.is_some() && !next.pause)
         });
-    if noun_follows
-        || is(at, &["there"]) && !units.get(at + 1).is_some_and(|next| next.has(Role::Copula) || next.has(Role::Modal))
-        || !corner && depth.is_none()
-        || !corner && at == start
-    {
-        return None;
+        noun || self.is(at, &["there"]) && !next(&|next| next.has(Role::Copula) || next.has(Role::Modal))
     }
-    // "The other" and "the near" are parts only with a noun of place; "the front" by itself is before the hearer.
-    let only_far = far && !head && !corner && lateral.is_none();
-    if only_far && is(at - 1, &["other", "opposite", "further", "farther", "far"])
-        || depth == Some(Direction::Front) && !head && !corner && !is(at, &["of"])
-    {
-        return None;
+}
+
+/// The words of a part of a room.
+struct Said {
+    lateral: Option<Direction>,
+    depth: Option<Direction>,
+    /// "Far", "other".
+    far: bool,
+    /// "End", "side", "half".
+    head: bool,
+    /// One past the last.
+    past: usize,
+}
+
+impl Said {
+    /// "The other" and "the near" are parts only with a noun of place; "the front" by itself is before the hearer.
+    fn is_bare(&self, words: &Words, past: usize, corner: bool) -> bool {
+        let only_far = self.far && !self.head && !corner && self.lateral.is_none();
+        only_far && words.is(past - 1, &["other", "opposite", "further", "farther", "far"])
+            || self.depth == Some(Direction::Front) && !self.head && !corner && !words.is(past, &["of"])
     }
-    let directions = match (lateral, depth, corner) {
-        (None, None, _) => [Some(Direction::Side), None],
-        (None, depth, _) => [depth, None],
-        (lateral, None, _) => [lateral, None],
-        // "The far right": the right one.
-        (lateral, Some(Direction::Back), false) if far => [lateral, None],
-        (lateral, depth, _) => [lateral, depth],
-    };
-    Some(Zone { directions, past: at })
+
+    fn directions(&self, corner: bool) -> [Option<Direction>; 2] {
+        match (self.lateral, self.depth, corner) {
+            (None, None, _) => [Some(Direction::Side), None],
+            (None, depth, _) => [depth, None],
+            (lateral, None, _) => [lateral, None],
+            // "The far right": the right one.
+            (lateral, Some(Direction::Back), false) if self.far => [lateral, None],
+            (lateral, depth, _) => [lateral, depth],
+        }
+    }
 }
 
 #[cfg(test)]
@@ -106,6 +156,7 @@ mod tests {
         assert_eq!(directions("the corner"), Some(vec![Side]));
         assert_eq!(directions("the near corner"), Some(vec![Front]));
         assert_eq!(directions("the middle of the room"), Some(vec![Central]));
+        assert_eq!(directions(&"the ".repeat(1000)), None);
         assert_eq!([directions("the back table"), directions("the left"), directions("the other")], [None, None, None]);
     }
 }

@@ -6,6 +6,7 @@
 
 mod actions;
 mod frames;
+mod nouns;
 mod rooms;
 mod stage;
 

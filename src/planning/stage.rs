@@ -1,7 +1,9 @@
 //! `plan` as a stage of the pipeline.
 
 use super::actions::actions_for;
+use super::nouns::misspelt;
 use super::rooms::{RoomChoice, choose_room, names};
+use crate::catalogue::usual_rooms;
 use crate::language::Lexicon;
 use crate::map::RoomMap;
 use crate::record::{
@@ -43,8 +45,12 @@ impl Planner {
         let said = grounding.room.as_ref().map(|room| self.known_by_the_map(room));
         let mut choice = choose_room(said.as_ref(), &self.map);
         let not: Vec<String> = grounding.not.iter().map(|not| not.name.clone()).collect();
+        if choice.room.is_none() {
+            self.try_usual_rooms_first(&mut choice.candidates, grounding);
+        }
         rule_out_rooms(&mut choice, &self.rooms_of(&not), &self.map);
         plan.problems.extend(choice.problem);
+        plan.problems.extend(misspelt(grounding, self.lexicon));
         if choice.fatal || is_empty(grounding) {
             return choice.room;
         }
@@ -60,6 +66,16 @@ impl Planner {
             self.deliver(objects.into_iter().flatten().collect(), goal, plan);
         }
         choice.room
+    }
+
+    /// Nobody said which room: a bed is looked for in the bedroom first. Rooms of the same rank stay as they are, the
+    /// nearest first.
+    fn try_usual_rooms_first(&self, candidates: &mut [String], grounding: &Grounding) {
+        let targets = grounding.nodes.iter().rev().filter_map(|node| node.target.as_deref());
+        let references = grounding.nodes.iter().flat_map(|node| &node.pairs).filter_map(|pair| pair.reference.thing());
+        let rooms = targets.chain(references).flat_map(usual_rooms).flat_map(|name| self.map.rooms_called(name));
+        let usual: Vec<String> = rooms.collect();
+        candidates.sort_by_key(|room| usual.iter().position(|name| name == room).unwrap_or(usual.len()));
     }
 
     fn deliver(&self, objects: Vec<String>, goal: &Destination, plan: &mut Plan) {
@@ -196,4 +212,25 @@ fn list(rooms: &[String]) -> String {
 
 fn words(name: &str) -> String {
     name.replace('_', " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rooms(target: &str) -> Vec<String> {
+        let grounding = format!(r#"{{"room":null,"object":null,"nodes":[{{"target":"{target}","pairs":[]}}]}}"#);
+        let plan = Planner::new(RoomMap::apartment()).plan(&serde_json::from_str(&grounding).expect("a grounding"));
+        match &plan.actions[0] {
+            Action::Enter { candidates, .. } => candidates.clone(),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn where_nobody_said_the_room_that_usually_has_the_furniture_is_tried_first() {
+        assert_eq!(rooms("bed"), ["bedroom", "living_room"]);
+        assert_eq!(rooms("couch"), ["living_room", "bedroom"]);
+        assert_eq!(rooms("table"), ["living_room", "bedroom"]);
+    }
 }

@@ -82,6 +82,11 @@ impl Vocabulary {
         }
     }
 
+    /// "Is" or "are", as a name is said: "the mug is", "the keys are".
+    pub fn copula(&self, name: &str) -> &'static str {
+        if self.noun(name).is_some_and(|noun| noun.singular != name) { "are" } else { "is" }
+    }
+
     /// Whether this is a word of English, British or American, inflected or not.
     pub fn is_english(&self, word: &str) -> bool {
         let word = lower_snake(word);
