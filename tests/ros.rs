@@ -87,7 +87,8 @@ impl Transport for Wire {
         said.push(Incoming::Message("/odom".into(), Message::Odometry(odometry)));
         let range = if world.blind { f32::NAN } else { 4.0 };
         let header = Header { stamp_s: 1.0, frame: "base_link".into() };
-        let scan = Scan { header, step_rad: 0.0175, least_m: 0.1, most_m: 8.0, ranges_m: vec![range; 360], ..Scan::default() };
+        let scan =
+            Scan { header, step_rad: 0.0175, least_m: 0.1, most_m: 8.0, ranges_m: vec![range; 360], ..Scan::default() };
         said.push(Incoming::Message("/scan".into(), Message::Scan(scan)));
         said
     }
@@ -135,7 +136,9 @@ fn a_velocity_not_asked_for_again_ends_as_zero_and_then_nothing_is_said() {
     ahead(&mut base, 10).expect("drives");
     assert!(world.lock().expect("whole").told().0 > 0.29);
     await_that("zero", &world, |world| world.told() == (0.0, 0.0));
-    await_that("silence", &world, |world| world.heard.last().is_some_and(|(at, ..)| at.elapsed() > Duration::from_secs(1)));
+    await_that("silence", &world, |world| {
+        world.heard.last().is_some_and(|(at, ..)| at.elapsed() > Duration::from_secs(1))
+    });
     assert!((base.pose().y - 3.0).abs() < 1e-6 && base.pose().x > 2.1, "{:?}", base.pose());
 }
 
@@ -149,7 +152,8 @@ fn dropping_and_stopping_end_in_zero_said_again_and_again() {
         }
         drop(base);
         let world = world.lock().expect("whole");
-        let zeros = world.heard.iter().rev().take_while(|(_, linear, angular)| (*linear, *angular) == (0.0, 0.0)).count();
+        let zeros =
+            world.heard.iter().rev().take_while(|(_, linear, angular)| (*linear, *angular) == (0.0, 0.0)).count();
         assert!(zeros >= 5, "{zeros}");
     }
 }

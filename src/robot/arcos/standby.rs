@@ -37,7 +37,7 @@ impl GuardedLine {
 
     fn start(&self) -> io::Result<Second> {
         let shared: OwnedFd = self.line.share()?;
-        Second::start(&self.program, shared, &words())
+        Second::start(&self.program, shared, &super::words())
     }
 }
 
@@ -106,7 +106,7 @@ mod tests {
         let [(pipe, mut first), (line, mut robot)] = [(); 2].map(|()| UnixStream::pair().expect("a pair"));
         first.write_all(words).expect("said");
         drop(first);
-        watch(&File::from(OwnedFd::from(pipe)), &File::from(OwnedFd::from(line)), &words()).expect("watches");
+        watch(&File::from(OwnedFd::from(pipe)), &File::from(OwnedFd::from(line)), &super::words()).expect("watches");
         let mut bytes = Vec::new();
         robot.read_to_end(&mut bytes).expect("readable");
         let mut decoder = Decoder::default();

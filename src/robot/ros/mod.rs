@@ -8,16 +8,21 @@ mod address;
 mod base;
 mod beams;
 mod body_file;
+mod client;
+mod hearing;
+mod joining;
 mod message;
 mod names;
+mod settings;
 mod track;
 mod transport;
 
 pub mod ros1;
 
 pub use address::master_of;
-pub use base::{RosBase, RosSettings};
+pub use base::RosBase;
 pub use body_file::{BodyFile, shipped_bodies};
 pub use message::{Header, Kind, Message, Odometry, Picture, Scan, Transform};
 pub use names::{Names, remapping};
+pub use settings::RosSettings;
 pub use transport::{Incoming, RosError, Transport};
