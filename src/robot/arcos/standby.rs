@@ -37,7 +37,7 @@ impl GuardedLine {
 
     fn start(&self) -> io::Result<Second> {
         let shared: OwnedFd = self.line.share()?;
-        Second::start(&self.program, shared, &super::words())
+        Second::start(&self.program, shared, &words())
     }
 }
 

@@ -36,10 +36,15 @@ impl Master {
         format!("ros1:{}", self.place)
     }
 
+    /// Whether it answers.
     pub fn is_alive(&self) -> bool {
         self.ask("getPid", &[]).is_ok()
     }
 
+    /// Topics that are published, and their types.
+    ///
+    /// # Errors
+    /// When it does not answer.
     pub fn topics(&self) -> Result<Vec<(String, String)>, RosError> {
         let answer = self.ask("getPublishedTopics", &[Value::text("")])?;
         let pair = |value: &Value| match value.as_list() {
@@ -49,12 +54,19 @@ impl Master {
         Ok(answer.as_list().iter().filter_map(pair).collect())
     }
 
+    /// We publish it.
+    ///
+    /// # Errors
+    /// When it does not answer, or refuses.
     pub fn publish(&self, topic: &str, kind: &str) -> Result<(), RosError> {
         let uri = Value::text(&self.uri);
         self.ask("registerPublisher", &[Value::text(topic), Value::text(kind), uri]).map(drop)
     }
 
-    /// The nodes that publish it.
+    /// We listen to it; the nodes that publish it.
+    ///
+    /// # Errors
+    /// When it does not answer, or refuses.
     pub fn subscribe(&self, topic: &str, kind: &str) -> Result<Vec<String>, RosError> {
         let uri = Value::text(&self.uri);
         let answer = self.ask("registerSubscriber", &[Value::text(topic), Value::text(kind), uri])?;
