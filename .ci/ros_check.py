@@ -263,7 +263,51 @@ def a_whole_fetch_with_camera_on_our_robot_as_a_ros_robot():
         return f"{result['outcome']} in {result['duration_s']} s, {truth['distance_m']:.1f} m, collisions {truth['collisions']}"
 
 
-CASES = [a_plan_is_driven_to_its_end_on_a_base_that_is_not_ours, killed, stopped, terminated, interrupted,
+ROSPY_NODE = """
+import json, rospy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import CameraInfo, Image, LaserScan, PointCloud
+from tf2_msgs.msg import TFMessage
+rospy.init_node("other_program")
+seen = {}
+def hear(topic, kind):
+    rospy.Subscriber(topic, kind, lambda message: seen.__setitem__(topic, message))
+for topic, kind in [("/odom", Odometry), ("/scan", LaserScan), ("/sonar", PointCloud), ("/tf", TFMessage),
+                    ("/tf_static", TFMessage), ("/clock", Clock), ("/camera/rgb/image_raw", Image),
+                    ("/camera/depth_registered/image_raw", Image), ("/camera/rgb/camera_info", CameraInfo)]:
+    hear(topic, kind)
+command = rospy.Publisher("/cmd_vel", Twist, queue_size=1)
+rospy.sleep(1.5)
+twist = Twist()
+twist.linear.x = 0.3
+for _ in range(20):
+    command.publish(twist)
+    rospy.sleep(0.1)
+odometry, scan, picture = seen["/odom"], seen["/scan"], seen["/camera/rgb/image_raw"]
+print(json.dumps(dict(topics=sorted(seen), x=odometry.pose.pose.position.x, v=odometry.twist.twist.linear.x,
+                      beams=len(scan.ranges), bytes=len(picture.data), size=[picture.width, picture.height])), flush=True)
+rospy.sleep(3)
+print(json.dumps(dict(v=seen["/odom"].twist.twist.linear.x)), flush=True)
+"""
+
+
+def a_node_in_rospy_drives_our_robot_which_stops_when_it_is_silent():
+    with Ros() as ros:
+        ros.start([os.path.join(BIN, "drive"), "--map", MAP, "--scene", SCENE, "--serve", ros.address,
+                   "--truth-out", ros.path("truth")])
+        ros.await_that("served robot", lambda: ros.truth() is not None)
+        node = subprocess.run(["/usr/bin/python3", "-c", ROSPY_NODE], env=ros.env, capture_output=True, timeout=60, check=True)
+        moving, after = [json.loads(line) for line in node.stdout.splitlines()]
+        assert len(moving["topics"]) == 9 and moving["beams"] == 360 and moving["v"] > 0.25 and moving["x"] > 0.2, moving
+        assert moving["bytes"] == 3 * moving["size"][0] * moving["size"][1] > 0, moving
+        assert after["v"] == 0.0 and ros.stands() and ros.truth()["distance_m"] < 1.2, (after, ros.truth())
+        return f"{moving['x']:.2f} m, then {ros.truth()['distance_m']:.2f} m in all"
+
+
+CASES = [a_node_in_rospy_drives_our_robot_which_stops_when_it_is_silent,
+         a_plan_is_driven_to_its_end_on_a_base_that_is_not_ours, killed, stopped, terminated, interrupted,
          a_closed_output, a_scan_of_no_numbers, silent_topics, bytes_that_are_no_scan, a_clock_that_jumps,
          the_master_dies, the_base_dies, nobody_is_there, a_whole_fetch_with_camera_on_our_robot_as_a_ros_robot]
 
