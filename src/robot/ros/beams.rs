@@ -57,10 +57,9 @@ impl Frames {
             chain
         };
         let (ours, theirs) = (up(base), up(frame));
-        let met = theirs.iter().find_map(|(name, there)| {
+        theirs.iter().find_map(|(name, there)| {
             ours.iter().find(|(other, _)| other == name).map(|(_, here)| here.inverse() * there)
-        });
-        met
+        })
     }
 }
 
