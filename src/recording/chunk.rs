@@ -100,7 +100,10 @@ impl Allowance {
     /// One more message of a chunk beyond the ratio.
     fn draw_message(&mut self) -> Result<(), String> {
         let left = self.messages.checked_sub(1);
-        self.messages = left.ok_or_else(|| MCAP_PACKED_WELL_MESSAGES.exceeded("what such chunks hold of them"))?;
+        self.messages = left.ok_or_else(|| {
+            let one_more = MCAP_PACKED_WELL_MESSAGES.value + 1;
+            MCAP_PACKED_WELL_MESSAGES.exceeded(&format!("{one_more} or more"))
+        })?;
         Ok(())
     }
 }
@@ -211,7 +214,8 @@ mod tests {
     #[test]
     fn the_messages_of_chunks_beyond_the_ratio_are_counted_all_together() {
         let mut allowance = Allowance::default();
-        (0..MCAP_PACKED_WELL_MESSAGES.value).for_each(|_| allowance.draw_message().expect("one of those that are taken"));
+        (0..MCAP_PACKED_WELL_MESSAGES.value)
+            .for_each(|_| allowance.draw_message().expect("one of those that are taken"));
         let damage = allowance.draw_message().expect_err("one more");
         assert!(damage.contains("messages are more than the 100000"), "{damage}");
     }
