@@ -269,6 +269,15 @@ pub const MCAP_PACKED_WELL_BYTES: Limit = Limit {
     lifted_by: None,
 };
 
+/// Messages in them.
+pub const MCAP_PACKED_WELL_MESSAGES: Limit = Limit {
+    name: "the chunks of an MCAP log beyond that ratio, together, in messages",
+    value: 100_000,
+    unit: "messages",
+    reason: "each takes time, however little it was packed to: 8 kB held three million",
+    lifted_by: None,
+};
+
 /// Frames that wait for their other half or for a transform.
 pub const MCAP_WAITING: Limit = Limit {
     name: "a log's pictures that wait for their camera or for each other",
@@ -336,6 +345,7 @@ pub const ALL: &[Limit] = &[
     MCAP_CHUNK_BYTES,
     MCAP_CHUNK_RATIO,
     MCAP_PACKED_WELL_BYTES,
+    MCAP_PACKED_WELL_MESSAGES,
     MCAP_WAITING,
     TRANSFORM_CHAIN,
     DETECTOR_SECONDS,

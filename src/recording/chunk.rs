@@ -10,7 +10,9 @@ use mcap::records::{Record, op};
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
 use super::link::link;
-use crate::limits::{MCAP_CHUNK_BYTES, MCAP_CHUNK_RATIO, MCAP_PACKED_WELL_BYTES, MCAP_RECORD_BYTES};
+use crate::limits::{
+    MCAP_CHUNK_BYTES, MCAP_CHUNK_RATIO, MCAP_PACKED_WELL_BYTES, MCAP_PACKED_WELL_MESSAGES, MCAP_RECORD_BYTES,
+};
 
 /// What a chunk held.
 #[derive(Default)]
@@ -38,7 +40,12 @@ impl Messages {
     pub(super) fn next(&mut self, links: &mut ChannelAccumulator<'static>) -> Option<Message<'static>> {
         let (_, place) = self.order.pop_front()?;
         // Its channel was there when the chunk was unpacked, so it is now.
-        link(op::MESSAGE, &self.bodies[place], links).ok().flatten().or_else(|| self.next(links))
+        let message = link(op::MESSAGE, &self.bodies[place], links).ok().flatten();
+        if self.order.is_empty() {
+            // The next chunk may need the room.
+            self.bodies = Vec::new();
+        }
+        message.or_else(|| self.next(links))
     }
 
     /// When the next message was logged, nanoseconds.
@@ -61,30 +68,43 @@ impl Messages {
 
 /// What the chunks of one log may yet unpack to beyond their ratio, all together, bytes: a picture of nothing, or one
 /// map of zeros, packs well and is sound, and a log of nothing else is none.
-pub(super) struct Allowance(u64);
+pub(super) struct Allowance {
+    bytes: u64,
+    messages: u64,
+}
 
 impl Default for Allowance {
     fn default() -> Self {
-        Self(MCAP_PACKED_WELL_BYTES.value)
+        Self { bytes: MCAP_PACKED_WELL_BYTES.value, messages: MCAP_PACKED_WELL_MESSAGES.value }
     }
 }
 
 impl Allowance {
-    /// What is wrong with the size that a chunk's head says it unpacks to.
-    fn exceeded(&mut self, body: &[u8]) -> Option<String> {
-        let size = u64::from_le_bytes(body.get(16..24)?.try_into().ok()?);
+    /// Whether the size that a chunk's head says it unpacks to is beyond the ratio.
+    ///
+    /// # Errors
+    /// What is wrong with that size.
+    fn draw_upon(&mut self, body: &[u8]) -> Result<bool, String> {
+        let size = body.get(16..24).and_then(|bytes| bytes.try_into().ok()).map_or(0, u64::from_le_bytes);
         if size > MCAP_CHUNK_BYTES.value {
-            return Some(MCAP_CHUNK_BYTES.exceeded(&size.to_string()));
+            return Err(MCAP_CHUNK_BYTES.exceeded(&size.to_string()));
         }
         let ratio = size / (body.len() as u64).max(1);
         if ratio <= MCAP_CHUNK_RATIO.value {
-            return None;
+            return Ok(false);
         }
-        match self.0.checked_sub(size) {
-            Some(left) => self.0 = left,
-            None => return Some(MCAP_CHUNK_RATIO.exceeded(&ratio.to_string())),
-        }
-        None
+        self.bytes = self.bytes.checked_sub(size).ok_or_else(|| MCAP_CHUNK_RATIO.exceeded(&ratio.to_string()))?;
+        Ok(true)
+    }
+
+    /// One more message of a chunk beyond the ratio.
+    fn draw_message(&mut self) -> Result<(), String> {
+        let left = self.messages.checked_sub(1);
+        self.messages = left.ok_or_else(|| {
+            let one_more = MCAP_PACKED_WELL_MESSAGES.value + 1;
+            MCAP_PACKED_WELL_MESSAGES.exceeded(&format!("{one_more} or more"))
+        })?;
+        Ok(())
     }
 }
 
@@ -104,9 +124,10 @@ pub(super) fn unpack(
         .with_validate_chunk_crcs(checked)
         .with_prevalidate_chunk_crcs(checked)
         .with_record_length_limit(MCAP_RECORD_BYTES.count());
-    if let Some(damage) = allowance.exceeded(body) {
-        return Unpacked { damage: Some(damage), ..Unpacked::default() };
-    }
+    let packed_well = match allowance.draw_upon(body) {
+        Ok(packed_well) => packed_well,
+        Err(damage) => return Unpacked { damage: Some(damage), ..Unpacked::default() },
+    };
     let body = before_overrun(body);
     let mut reader = LinearReader::new_with_options(options);
     let mut head = [op::CHUNK; 9];
@@ -122,7 +143,13 @@ pub(super) fn unpack(
                 reader.notify_read(read);
                 Ok(())
             }
-            Ok(LinearReadEvent::Record { data, opcode: op::MESSAGE }) => unpacked.messages.push(data, links),
+            Ok(LinearReadEvent::Record { data, opcode: op::MESSAGE }) => {
+                if packed_well && let Err(damage) = allowance.draw_message() {
+                    unpacked.damage = Some(damage);
+                    break;
+                }
+                unpacked.messages.push(data, links)
+            }
             Ok(LinearReadEvent::Record { data, opcode: opcode @ (op::SCHEMA | op::CHANNEL) }) => {
                 link(opcode, data, links).map(|_| ())
             }
@@ -182,6 +209,15 @@ mod tests {
 
     fn unpacked(body: &[u8], allowance: &mut Allowance) -> Unpacked {
         unpack(body.len() as u64, body, &mut ChannelAccumulator::default(), allowance, false)
+    }
+
+    #[test]
+    fn the_messages_of_chunks_beyond_the_ratio_are_counted_all_together() {
+        let mut allowance = Allowance::default();
+        (0..MCAP_PACKED_WELL_MESSAGES.value)
+            .for_each(|_| allowance.draw_message().expect("one of those that are taken"));
+        let damage = allowance.draw_message().expect_err("one more");
+        assert!(damage.contains("messages are more than the 100000"), "{damage}");
     }
 
     #[test]

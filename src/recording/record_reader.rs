@@ -5,6 +5,7 @@ use std::io::{BufReader, Read};
 use std::path::Path;
 
 use super::{LogError, LogReader, Loss, Window};
+use crate::limits::LINE_BYTES;
 
 /// The JSON records of one topic, in order, byte for byte, and everything that was lost on the way.
 pub struct RecordReader<R> {
@@ -36,6 +37,9 @@ impl<R: Read> RecordReader<R> {
             let (topic, encoding) = (&channel.topic, &channel.message_encoding);
             let schema = channel.schema.as_ref().map_or("no schema", |schema| schema.name.as_str());
             return Some(Err(Loss(format!("{topic} holds no records: its encoding is `{encoding}` ({schema})"))));
+        }
+        if let Err(damage) = LINE_BYTES.check(message.data.len()) {
+            return Some(Err(Loss(format!("{}: {damage}", self.topic))));
         }
         in_window.then(|| Ok(message.data.to_vec()))
     }
