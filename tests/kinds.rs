@@ -146,3 +146,17 @@ fn losing_a_word_never_makes_a_reading_surer() {
         assert!(ground(text).score < whole.score, "{text}");
     }
 }
+
+#[test]
+fn what_is_carried_is_the_object_and_what_stands_holds_it() {
+    all(&[
+        ("the ladder is in the shed behind the mower", "ladder in:shed mower/back"),
+        ("find the dumbbell under the weight bench", "dumbbell bench/under"),
+        ("the scale is on the shelf in the left room", "scale side:left on:shelf"),
+        ("the earrings are on the secretary desk in the bedroom", "earrings in:bedroom on:secretary_desk"),
+        ("the hat is on the coat tree by the door", "hat on:coat_tree door/side"),
+        ("the quilt is on the cot", "quilt on:cot"),
+        ("my eye drops are on the washstand", "eye_drops on:washstand"),
+        ("relocate the terrarium from the desk to the bathroom", "terrarium on:desk to-room:bathroom"),
+    ]);
+}

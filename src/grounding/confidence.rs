@@ -1,7 +1,7 @@
 //! How sure a reading is: what makes it doubtful, weighed by what doubts were worth on the project's own corpus.
 //!
 //! The weights stand in `corpus/grammar/confidence.tsv`; `corpus/grammar/learn_confidence.py` learns them from labelled
-//! lines by logistic regression.
+//! lines by logistic regression, in which a strange word always costs.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::OnceLock;
@@ -16,18 +16,13 @@ const MOST: f64 = 4.0;
 /// What makes the reading doubtful, and how often.
 pub type Doubts = BTreeMap<String, f64>;
 
-/// What is left of the confidence for each word that is unknown or was mended.
-const STRANGE_WORD: f64 = 0.95;
-
 /// Sets the confidence in the whole reading; returns what it was charged for.
 pub fn score(grounding: &mut Grounding, reading: &Reading) -> Doubts {
     let doubts = doubts(grounding, reading);
     let weights = weights();
     let sum: f64 = doubts.iter().filter_map(|(name, count)| Some(weights.get(name.as_str())? * count)).sum();
     let constant = weights.get("constant").copied().unwrap_or(0.0);
-    // Whatever else the weights say, a word that nobody knows and one that was mended never make a reading surer.
-    let strange: f64 = ["unknown_word", "mended"].iter().filter_map(|name| doubts.get(*name)).sum();
-    grounding.score = (STRANGE_WORD.powf(strange) / (1.0 + (-constant - sum).exp())).into();
+    grounding.score = (1.0 / (1.0 + (-constant - sum).exp())).into();
     doubts
 }
 
