@@ -82,19 +82,31 @@ impl Session {
     /// When the record has no text, or what it leaves cannot be written.
     pub fn hear(&mut self, record: &mut Record) -> Result<Reply, StageError> {
         let text: String = record.require("text", "a line of a conversation needs what was said under this key")?;
-        let what = Utterance::of(&text);
+        // Questions to the robot leave its own question open.
+        match Utterance::of(&text) {
+            Utterance::WhereAreYou => Ok(Reply::Answer(self.where_it_is())),
+            Utterance::WhatDoYouSee => Ok(Reply::Answer(self.what_it_sees())),
+            Utterance::Why => Ok(Reply::Answer(self.why())),
+            what => self.heed(what, &text, record),
+        }
+    }
+
+    /// Does what was said, with the question that waits for an answer.
+    fn heed(&mut self, what: Utterance, text: &str, record: &mut Record) -> Result<Reply, StageError> {
         let asked = self.asked.take();
         match what {
             Utterance::Stop if asked.is_some() => Ok(said("All right, I leave it.")),
             Utterance::Stop => Ok(said("I am standing still.")),
-            Utterance::WhereAreYou => Ok(Reply::Answer(self.where_it_is())),
-            Utterance::WhatDoYouSee => Ok(Reply::Answer(self.what_it_sees())),
-            Utterance::Why => Ok(Reply::Answer(self.why())),
             Utterance::OtherOne => self.the_other_one(asked, record),
-            Utterance::ComeBack => self.errand("go home", record),
-            Utterance::Errand => match asked {
-                Some(errand) if !begins_an_errand(&text, &self.grounder) => self.answered(errand, &text, record),
-                _ => self.errand(&text, record),
+            Utterance::ComeBack => {
+                self.passed_over.clear();
+                let text = "go home".to_string();
+                let grounding = self.understood(&text)?;
+                self.drive(Errand { text, grounding }, record)
+            }
+            _ => match asked {
+                Some(errand) if !begins_an_errand(text, &self.grounder) => self.answered(errand, text, record),
+                _ => self.errand(text, record),
             },
         }
     }
@@ -103,6 +115,10 @@ impl Session {
     fn errand(&mut self, text: &str, record: &mut Record) -> Result<Reply, StageError> {
         self.passed_over.clear();
         let errand = Errand { text: text.to_string(), grounding: self.understood(text)? };
+        // Whoever has seen the thing need not ask where it is.
+        if self.remembered(&errand.grounding).is_some() {
+            return self.drive_remembering(errand, record);
+        }
         let unsettled = errand.grounding.question.clone().filter(|_| !errand.grounding.readings.is_empty());
         if let Some(question) = unsettled {
             record.put(&errand.grounding);
