@@ -55,7 +55,7 @@ def run(
 ) -> list[Record]:
     """The records after one stage, with its options as on the command line.
 
-    With `keep_going`, records that fail are left out of the result instead of raising `StageError`.
+    With `keep_going`, records that fail come back as they were instead of raising `StageError`.
     """
     given = "".join(json.dumps(_record(record), ensure_ascii=False) + "\n" for record in records)
     command = [executable(stage), *arguments, *(["--keep-going"] if keep_going else [])]

@@ -181,7 +181,7 @@ mod tests {
                 .take_in(&View { furniture: vec![detection(category, 1.0, confidence)], objects: Vec::new() }, FAR_OFF);
         }
         assert_eq!(beliefs.furniture.len(), 1);
-        assert_eq!(beliefs.furniture[0].detection.category, "table");
+        assert_eq!(beliefs.furniture[0].detection().category, "table");
     }
 
     #[test]
@@ -192,7 +192,7 @@ mod tests {
                 .take_in(&View { furniture: vec![detection(category, 1.0, confidence)], objects: Vec::new() }, FAR_OFF);
         }
         let piece = &beliefs.furniture[0];
-        assert_eq!(piece.detection.category, "table");
+        assert_eq!(piece.detection().category, "table");
         assert!(piece.belief(|category| category == "table") > piece.belief(|category| category == "chair"));
         assert!(piece.belief(|category| category == "chair") > 0.2);
     }
@@ -217,7 +217,7 @@ mod tests {
         }
         assert_eq!(beliefs.furniture.len(), 1);
         assert!((beliefs.furniture[0].centre().x - 1.05).abs() < 1e-9);
-        assert!((beliefs.furniture[0].footprint.centroid().x - 1.05).abs() < 1e-9);
+        assert!((beliefs.furniture[0].footprint().centroid().x - 1.05).abs() < 1e-9);
     }
 
     #[test]

@@ -63,9 +63,9 @@ impl Executive<'_> {
             self.look_further(task, room, arrived)?;
             self.study_rivals(task, room, arrived)?;
             found = self.round(task, room, arrived)?;
-            if found.is_none() && !self.options.no_fallback {
-                found = self.look_elsewhere(task, room)?;
-            }
+        }
+        if found.is_none() && care != Care::Once && !self.options.no_fallback {
+            found = self.look_elsewhere(task, room)?;
         }
         if found.is_none() && care != Care::Once {
             self.pilot.because(

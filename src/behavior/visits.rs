@@ -3,11 +3,11 @@
 /// How carefully a room is searched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Care {
-    /// Everything, and everything once more.
+    /// Everything, from elsewhere too, and everything once more.
     Whole,
-    /// Everything once: it may be in another room.
+    /// What shows itself, once: it may be in another room.
     Once,
-    /// Everything once more.
+    /// From elsewhere, and everything once more.
     Again,
 }
 

@@ -4,7 +4,7 @@
 //! with 130, the others as they always do (QUIT with its core dump). Ctrl-Z
 //! suspends it, after what moves stands. A file that may not grow (XFSZ) is an
 //! error of the write, as a closed pipe is. What cannot be caught – KILL,
-//! STOP, a failed allocation's abort – is left to `robot::arcos::standby`.
+//! STOP, a failed allocation's abort – is left to `robot::standby`.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};

@@ -7,8 +7,10 @@ mod driver;
 mod frame_stream;
 #[cfg(feature = "kinect")]
 mod kinect;
+mod ros_camera;
 mod stream_eyes;
 
 pub use driver::{Interrupter, RealDriver};
 pub use frame_stream::Tell;
+pub use ros_camera::RosCamera;
 pub use stream_eyes::{NoEyes, StreamEyes};

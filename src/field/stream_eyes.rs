@@ -10,6 +10,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::frame_stream::{FrameStream, Taken, Tell};
+use super::ros_camera::RosCamera;
 use crate::frame::RgbdFrame;
 use crate::frame::placed;
 use crate::geometry::{Pose, wrap_angle};
@@ -103,6 +104,15 @@ impl StreamEyes {
     #[cfg(feature = "kinect")]
     pub fn kinect(map: RoomMap, carrier: Arc<dyn Remote>, tell: Tell) -> io::Result<Self> {
         let stream = FrameStream::start(Arc::clone(&carrier), tell, super::kinect::stream)?;
+        Self::new(stream, shipped_detector(map), carrier)
+    }
+
+    /// Eyes behind the camera of a robot that runs ROS.
+    ///
+    /// # Errors
+    /// When no thread can be started.
+    pub fn ros(camera: RosCamera, map: RoomMap, carrier: Arc<dyn Remote>, tell: Tell) -> io::Result<Self> {
+        let stream = FrameStream::start(Arc::clone(&carrier), tell, move |take| camera.stream(take))?;
         Self::new(stream, shipped_detector(map), carrier)
     }
 

@@ -35,11 +35,15 @@ fn weights() -> &'static HashMap<&'static str, f64> {
     static WEIGHTS: OnceLock<HashMap<&'static str, f64>> = OnceLock::new();
     WEIGHTS.get_or_init(|| {
         let lines = include_str!("../../corpus/grammar/confidence.tsv").lines().filter(|line| !line.starts_with('#'));
-        lines
-            .filter_map(|line| line.split_once('\t'))
-            .filter_map(|(name, weight)| Some((name, weight.parse().ok()?)))
-            .collect()
+        lines.map(|line| weight(line).unwrap_or_else(|| panic!("corpus/grammar/confidence.tsv: {line:?}"))).collect()
     })
+}
+
+/// A line that cannot be read is a fault of the file that was built in, and ends the program.
+fn weight(line: &str) -> Option<(&str, f64)> {
+    let (name, weight) = line.split_once('\t')?;
+    let weight: f64 = weight.parse().ok()?;
+    (!name.is_empty() && weight.is_finite()).then_some((name, weight))
 }
 
 fn doubts(grounding: &Grounding, reading: &Reading) -> Doubts {

@@ -227,6 +227,7 @@ impl FurnitureMap {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Pose;
 
     fn seen(category: &str, confidence: f64, other: &str, x: f64) -> Detection {
         let pose = Pose::new(x, 1.0, 0.0);

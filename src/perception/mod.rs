@@ -61,7 +61,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::frame::RgbdFrame;
 use crate::geometry::Pose;
-use crate::record::Detection;
+use crate::record::{Detection, Part};
 
 /// A camera with whatever makes detections of its pictures.
 pub trait Eyes {
@@ -104,6 +104,10 @@ pub struct ObjectSighting {
     pub y: f64,
     /// Whether a person could tell what it is from this picture: the paper's criterion of success.
     pub recognisable: bool,
+}
+
+impl Part for Vec<ObjectSighting> {
+    const KEY: &'static str = "objects";
 }
 
 impl ObjectSighting {

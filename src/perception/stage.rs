@@ -78,9 +78,9 @@ impl Perceiver {
 
     fn add(&self, name: &str, frame: &RgbdFrame, from: PoseSource, record: &mut Record) -> Result<Note, StageError> {
         let view = self.look(name, frame, from, record)?;
-        record.set("camera", &CameraPose::new(frame.world_from_camera, from));
+        record.put(&CameraPose::new(frame.world_from_camera, from));
         record.put(&self.sure(view.furniture));
-        record.set("objects", &view.objects.into_iter().map(rounded).collect::<Vec<_>>());
+        record.put(&view.objects.into_iter().map(rounded).collect::<Vec<_>>());
         Ok(Note::Done)
     }
 
@@ -160,7 +160,7 @@ impl Stage for Perceiver {
 
     fn text(&self, record: &Record) -> Result<String, StageError> {
         let detections: Vec<Detection> = record.require_part("it is what `perceive` adds")?;
-        let objects: Vec<ObjectSighting> = record.get("objects")?.unwrap_or_default();
+        let objects: Vec<ObjectSighting> = record.part()?.unwrap_or_default();
         let frame = record.get::<String>("frame")?.or_else(|| record.id()).unwrap_or_default();
         let small = |o: &ObjectSighting| {
             let name = if o.recognisable { o.name.clone() } else { format!("{}?", o.name) };

@@ -1,6 +1,6 @@
 //! What a stage adds to a record, each under a key that its type alone names.
 
-use super::{Chunk, Detection, Grounding, Hof, Plan, Token, Trial};
+use super::{CameraPose, Chunk, Detection, Grounding, Hof, Plan, Token, Trial};
 
 /// A value that stands in records under one key.
 pub trait Part {
@@ -24,5 +24,6 @@ keys! {
     "plan": Plan,
     "trial": Trial,
     "hof": Hof,
+    "camera": CameraPose,
     "detections": Vec<Detection>,
 }

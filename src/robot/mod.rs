@@ -4,12 +4,20 @@
 
 pub mod arcos;
 mod body;
+mod guard;
 pub mod p3dx;
 mod real;
+mod report;
+pub mod ros;
 pub mod sonar;
+pub mod standby;
+mod threaded;
 
 pub use body::Body;
+pub use guard::guarded_speed;
 pub use real::{Event, RealBase, Remote};
+pub use report::Report;
+pub use threaded::{Driven, Stopper, ThreadedBase};
 
 use crate::geometry::{Pose, Vec2, vec2};
 

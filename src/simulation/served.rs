@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::arcos::{ServeAddress, Server, ServerSettings, serve_at};
-use super::base::{Obstacles, SimulatedBase};
+use super::base::{Obstacles, SimulatedBase, Truth};
 use super::camera::{Kinect, SolidScene};
 use super::{Home, TrialSettings};
 use crate::frame::{inverse, placed};
@@ -39,7 +39,7 @@ pub struct Served {
 
 /// Where the robot is: in truth, and by its odometry.
 #[derive(Clone, Copy, Default)]
-struct Whereabouts {
+pub(super) struct Whereabouts {
     truth: Pose,
     believed: Pose,
 }
@@ -57,17 +57,17 @@ impl Served {
         let place = self.address.listen()?;
         let mut server = Server::new(base, self.settings.clone());
         let whereabouts = Arc::new(Mutex::new(Whereabouts::default()));
-        note(&whereabouts, &server);
+        note_server(&whereabouts, &server);
         if let Some(path) = &self.camera {
             film(path.clone(), home.clone(), Arc::clone(&whereabouts), self.how)?;
         }
         let mut truth = self.truth.as_deref().map(TruthLog::create).transpose()?;
         tell(&format!("serving at {}; ctrl-C ends it", self.address));
         serve_at(&mut server, place, |server| {
-            note(&whereabouts, server);
+            note_server(&whereabouts, server);
             server.take_log().iter().for_each(|text| tell(text));
             server.take_heard();
-            let written = truth.as_mut().map_or(Ok(()), |log| log.write(server));
+            let written = truth.as_mut().map_or(Ok(()), |log| log.write_server(server));
             if let Err(error) = &written {
                 tell(&format!("the truth cannot be written: {error}"));
             }
@@ -76,64 +76,87 @@ impl Served {
     }
 }
 
-fn note(whereabouts: &Mutex<Whereabouts>, server: &Server) {
-    let truth = server.truth().borrow().pose;
-    *whereabouts.lock().unwrap_or_else(PoisonError::into_inner) = Whereabouts { truth, believed: server.odometry() };
+fn note_server(whereabouts: &Mutex<Whereabouts>, server: &Server) {
+    note(whereabouts, server.truth().borrow().pose, server.odometry());
+}
+
+/// Where the robot is now, for its camera.
+pub(super) fn note(whereabouts: &Mutex<Whereabouts>, truth: Pose, believed: Pose) {
+    *whereabouts.lock().unwrap_or_else(PoisonError::into_inner) = Whereabouts { truth, believed };
 }
 
 /// Films on a thread of its own, so that no picture makes a packet late. Pictures bear the time of day.
 fn film(path: PathBuf, home: Home, whereabouts: Arc<Mutex<Whereabouts>>, how: TrialSettings) -> io::Result<()> {
     std::thread::Builder::new().name("camera".to_string()).spawn(move || {
         // A reader that goes away ends the film, not the robot.
-        let _ = roll(&path, &home, &whereabouts, how);
+        let _ = write_film(&path, &home, &whereabouts, how);
     })?;
     Ok(())
 }
 
-fn roll(path: &Path, home: &Home, whereabouts: &Mutex<Whereabouts>, how: TrialSettings) -> Result<(), String> {
-    let solids = SolidScene::new(&home.map, &home.scene);
-    let kinect = Kinect { camera: home.camera(), ..how.kinect };
-    let mut rng = ChaCha8Rng::seed_from_u64(how.seed);
+fn write_film(path: &Path, home: &Home, whereabouts: &Mutex<Whereabouts>, how: TrialSettings) -> Result<(), String> {
     let text = |error: &dyn std::fmt::Display| error.to_string();
     // A FIFO opens when its reader comes.
     let file = OpenOptions::new().write(true).create(true).truncate(true).open(path).map_err(|error| text(&error))?;
     let mut writer = FrameWriter::new(file).map_err(|error| text(&error))?;
+    roll(home, whereabouts, how, |timed| writer.write(&timed).map_err(|error| text(&error)))
+}
+
+/// Films until `take` wants no more.
+pub(super) fn roll(
+    home: &Home,
+    whereabouts: &Mutex<Whereabouts>,
+    how: TrialSettings,
+    mut take: impl FnMut(TimedFrame) -> Result<(), String>,
+) -> Result<(), String> {
+    let solids = SolidScene::new(&home.map, &home.scene);
+    let kinect = Kinect { camera: home.camera(), ..how.kinect };
+    let mut rng = ChaCha8Rng::seed_from_u64(how.seed);
     loop {
         let began = Instant::now();
         let here = *whereabouts.lock().unwrap_or_else(PoisonError::into_inner);
         let (mut frame, _) = kinect.capture(&solids, here.truth, &mut rng);
         frame.world_from_camera = placed(&placed(&frame.world_from_camera, inverse(here.truth)), here.believed);
         let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
-        let timed = TimedFrame::at(now.as_secs_f64(), Some(here.believed), frame);
-        writer.write(&timed).map_err(|error| text(&error))?;
+        take(TimedFrame::at(now.as_secs_f64(), Some(here.believed), frame))?;
         std::thread::sleep(PICTURE_EVERY.saturating_sub(began.elapsed()));
     }
 }
 
 /// Lines of `{"t":…,"x":…,"y":…,"heading":…,"speed":…,"turn":…,"driven":…,"distance_m":…,"sips":…}`.
-struct TruthLog {
+pub(super) struct TruthLog {
     file: std::fs::File,
     next: Duration,
 }
 
 impl TruthLog {
-    fn create(path: &Path) -> io::Result<Self> {
+    pub(super) fn create(path: &Path) -> io::Result<Self> {
         Ok(Self { file: std::fs::File::create(path)?, next: Duration::ZERO })
     }
 
-    fn write(&mut self, server: &Server) -> io::Result<()> {
-        let now = server.now();
+    fn write_server(&mut self, server: &Server) -> io::Result<()> {
+        let truth = server.truth();
+        let truth = truth.borrow();
+        self.write(server.now(), &truth, server.velocity(), server.is_driven(), server.sip_count())
+    }
+
+    /// One line, when one is due.
+    pub(super) fn write(
+        &mut self,
+        now: Duration,
+        truth: &Truth,
+        (speed, turn): (f64, f64),
+        driven: bool,
+        reports: u64,
+    ) -> io::Result<()> {
         if now < self.next {
             return Ok(());
         }
         self.next = now + TRUTH_EVERY;
-        let truth = server.truth();
-        let truth = truth.borrow();
-        let (speed, turn) = server.velocity();
         let line = serde_json::json!({
             "t": now.as_secs_f64(), "x": truth.pose.x, "y": truth.pose.y, "heading": truth.pose.heading,
-            "speed": speed, "turn": turn, "driven": server.is_driven(), "distance_m": truth.distance_m,
-            "collisions": truth.collisions, "sips": server.sip_count(),
+            "speed": speed, "turn": turn, "driven": driven, "distance_m": truth.distance_m,
+            "collisions": truth.collisions, "sips": reports,
         });
         writeln!(self.file, "{line}")
     }

@@ -37,21 +37,31 @@ impl Arguments {
         }
     }
 
+    /// Each field by its name, so that none can be forgotten.
     fn take(&mut self, options: TrialOptions) {
-        (self.home.world, self.home.map) = (options.world.map(PathBuf::from), options.map.map(PathBuf::from));
-        (self.noise, self.eyes.perception) = (Some(options.noise), options.perception);
-        (self.dead_time, self.jitter) = (options.dead_time, options.jitter);
-        self.eyes.depth_noise = options.depth_noise;
-        self.eyes.depth_loss = options.depth_loss;
-        self.eyes.light = options.light;
-        self.executive.blind = options.blind;
-        self.executive.one_frame = options.one_frame;
-        self.executive.first_pair_only = options.first_pair_only;
-        self.executive.no_fallback = options.no_fallback;
-        self.executive.no_glance = options.no_glance;
-        self.executive.no_localization = options.no_localization;
-        self.executive.time_limit = options.time_limit;
-        self.common.seed = options.seed;
+        let (world, map, noise);
+        let (eyes, executive) = (&mut self.eyes, &mut self.executive);
+        TrialOptions {
+            world,
+            map,
+            noise,
+            dead_time: self.dead_time,
+            jitter: self.jitter,
+            perception: eyes.perception,
+            depth_noise: eyes.depth_noise,
+            depth_loss: eyes.depth_loss,
+            light: eyes.light,
+            blind: executive.blind,
+            one_frame: executive.one_frame,
+            first_pair_only: executive.first_pair_only,
+            no_fallback: executive.no_fallback,
+            no_glance: executive.no_glance,
+            no_localization: executive.no_localization,
+            time_limit: executive.time_limit,
+            seed: self.common.seed,
+        } = options;
+        (self.home.world, self.home.map) = (world.map(PathBuf::from), map.map(PathBuf::from));
+        self.noise = Some(noise);
     }
 
     /// With the options that the log says, where none were given.

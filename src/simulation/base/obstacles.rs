@@ -69,6 +69,20 @@ impl Obstacles {
         nearest
     }
 
+    /// Metres to what a beam of light from `origin` along `axis` (a unit vector) meets at the sonars' height, within
+    /// `reach`.
+    pub fn beam(&self, origin: Vec2, axis: Vec2, reach: f64) -> Option<f64> {
+        let edges = self.things.iter().filter(|thing| thing.is_low).flat_map(|thing| &thing.edges);
+        let met = edges.chain(&self.walls).filter_map(|&(a, b)| {
+            let along = b - a;
+            let across = cross(axis, along);
+            let way = cross(a - origin, along) / across;
+            let share = cross(a - origin, axis) / across;
+            (across.abs() > 1e-12 && way > 0.0 && (0.0..=1.0).contains(&share)).then_some(way)
+        });
+        met.min_by(f64::total_cmp).filter(|way| *way <= reach)
+    }
+
     /// Metres to the nearest echo for a sonar at `origin` that looks along `axis` (a unit vector), within `reach`.
     pub fn echo(&self, origin: Vec2, axis: Vec2, reach: f64) -> Option<f64> {
         let mut nearest = sonar::echo(&self.walls, origin, axis, reach);

@@ -4,12 +4,12 @@ use std::io;
 use std::time::Duration;
 
 use super::handshake::Handshake;
-use super::{ArcosSettings, ConnectError, Identity, Odometry, Report, guarded_speed};
+use super::{ArcosSettings, ConnectError, Identity, Odometry};
 use crate::geometry::Pose;
 use crate::robot::arcos::codec::{Command, Config, Counters, Decoder, number};
 use crate::robot::arcos::line::Line;
 use crate::robot::arcos::parameters::Parameters;
-use crate::robot::{Body, Event, MobileBase, RobotError, SonarReading, Status};
+use crate::robot::{Body, Event, MobileBase, Report, RobotError, SonarReading, Status, guarded_speed};
 
 /// Between two commands (Operations Manual: 3 to 5 ms).
 pub(super) const SPACING: Duration = Duration::from_millis(4);

@@ -7,23 +7,19 @@
 mod base;
 mod connection;
 mod ending;
-mod guard;
 mod handshake;
 mod intake;
 mod odometry;
-mod report;
 mod settings;
 mod setup;
 
 use std::io;
 use std::time::Duration;
 
-pub use base::{ArcosBase, Stopper};
+pub use base::ArcosBase;
 pub use connection::Client;
-pub use guard::guarded_speed;
 pub use handshake::{HandshakeError, Identity};
 pub use odometry::{Odometry, Taken};
-pub use report::Report;
 pub use settings::ArcosSettings;
 
 /// Why no robot could be had at the end of a line.

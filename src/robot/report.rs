@@ -1,9 +1,9 @@
-//! What the client knows of its robot.
+//! What a client knows of its robot.
 
 use std::time::Duration;
 
+use super::{SonarReading, Status};
 use crate::geometry::Pose;
-use crate::robot::{SonarReading, Status};
 
 /// The latest state of the robot.
 #[derive(Clone, Debug, Default)]
@@ -36,7 +36,7 @@ pub struct Report {
     pub heard_at: Duration,
     /// From a command to the report that shows it, as found when connecting.
     pub dead_time: Duration,
-    /// Information packets so far.
+    /// Reports so far.
     pub sips: u64,
 }
 
