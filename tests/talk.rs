@@ -11,7 +11,7 @@ fn talk(lines: &[&str], arguments: &[&str]) -> Ran {
 
 #[test]
 fn a_question_is_a_record_and_the_next_line_its_answer() {
-    let records = talk(&["find my mug", "where are you?", "the right one"], &[]).records();
+    let records = talk(&["find my mug", "where are you?", "the left one"], &[]).records();
     assert!(records[0]["question"].as_str().is_some_and(|asked| asked.starts_with("Which room")), "{}", records[0]);
     assert_eq!(records[1]["answer"], "I am in the hallway.");
     assert_eq!(records[2]["trial"]["outcome"], "found", "{}", records[2]);
@@ -30,18 +30,17 @@ fn what_was_found_once_is_gone_to_without_a_question_the_next_time() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("seen.json");
     let remember = ["--remember", file.to_str().expect("UTF-8")];
-    let first = talk(&["find my mug", "the right one"], &remember).records();
+    let first = talk(&["find my mug", "the left one"], &remember).records();
     let second = talk(&["find my mug"], &remember).records();
     assert!(first[0]["question"].is_string() && second[0]["question"].is_null());
     assert_eq!(second[0]["trial"]["outcome"], "found", "{}", second[0]);
 }
 
 #[test]
-fn it_says_why_and_comes_back() {
-    let said = talk(&["find my mug in the bedroom", "why?", "come back"], &["--format", "text"]).out;
+fn it_says_why() {
+    let said = talk(&["find my mug in the bedroom", "why?"], &["--format", "text"]).out;
     let lines: Vec<&str> = said.lines().collect();
     assert!(lines[1].starts_with("You said \"find my mug in the bedroom\"; "), "{said}");
-    assert!(lines[2].starts_with("I am there: in the hallway"), "{said}");
 }
 
 #[test]
