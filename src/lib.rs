@@ -9,6 +9,7 @@
 //! |---|---|---|
 //! | [`cli`] | arguments, JSON lines in and out, diagnostics, exit codes | all |
 //! | [`evaluation`] | experiments, metrics, tables | `evaluate` |
+//! | [`conversation`] | errand after errand with a person: questions, answers, what was seen before | `drive --talk` |
 //! | [`simulation`] | the truth: scene, camera, simulated base and eyes, homes made at random, the judge | `drive` |
 //! | [`field`] | the real robot: its trial, its camera | `drive --robot` |
 //! | [`recording`] | MCAP in and out; live over a WebSocket; what a trial leaves beside its record | |
@@ -32,6 +33,7 @@
 pub mod behavior;
 pub mod catalogue;
 pub mod cli;
+pub mod conversation;
 pub mod drawing;
 pub mod escape;
 pub mod evaluation;

@@ -41,6 +41,15 @@ pub const TEXT_BYTES: Limit = Limit {
     lifted_by: None,
 };
 
+/// Bytes of what a conversation remembers.
+pub const MEMORY_BYTES: Limit = Limit {
+    name: "the memory of a conversation",
+    value: 1 << 22,
+    unit: "bytes",
+    reason: "tens of thousands of pieces of furniture and objects",
+    lifted_by: None,
+};
+
 /// Bytes of a room map, a scene, or the YAML of a `map_server` pair.
 pub const WORLD_FILE_BYTES: Limit = Limit {
     name: "a room map or scene file",
@@ -318,6 +327,7 @@ pub const DETECTOR_ANSWER_BYTES: Limit = Limit {
 pub const ALL: &[Limit] = &[
     LINE_BYTES,
     TEXT_BYTES,
+    MEMORY_BYTES,
     WORLD_FILE_BYTES,
     PICTURE_FILE_BYTES,
     MESH_FILE_BYTES,

@@ -21,6 +21,8 @@ pub struct Beliefs {
     names: Names,
     /// What is known to be empty.
     pub free_space: FreeSpace,
+    /// Where a person said that it is not, metres.
+    pub passed_over: Vec<Vec2>,
     /// Points at which the sonar met something the eyes had not reported.
     pub bumps: Vec<Vec2>,
 }
@@ -35,12 +37,14 @@ impl Beliefs {
 
     /// Takes in what the eyes of a robot that stands at `here` report; true when the furniture has changed.
     pub fn take_in(&mut self, view: &View, here: Vec2) -> bool {
-        for sighting in view.objects.iter().filter(|sighting| sighting.recognisable) {
+        let heeded = view.objects.iter().filter(|sighting| !self.is_passed_over_at(vec2(sighting.x, sighting.y)));
+        let heeded: Vec<&ObjectSighting> = heeded.collect();
+        for &sighting in heeded.iter().filter(|sighting| sighting.recognisable) {
             self.objects.retain(|known| known.name != sighting.name || far_apart(known, sighting));
             self.objects.push(sighting.clone());
             self.names.tell(sighting);
         }
-        view.objects.iter().for_each(|sighting| self.glimpses.add(sighting, here));
+        heeded.iter().for_each(|sighting| self.glimpses.add(sighting, here));
         let mut changed = false;
         let known = associated(self.furniture.iter().map(Furniture::fused), &view.furniture);
         for (detection, known) in view.furniture.iter().zip(known) {
@@ -50,6 +54,15 @@ impl Beliefs {
             furniture.holds = self.glimpses.steady().any(|at| furniture.footprint().contains(at));
         }
         changed
+    }
+
+    /// Whether a person said that it is not on this piece.
+    pub fn is_passed_over(&self, piece: &Furniture) -> bool {
+        self.passed_over.iter().any(|&at| piece.footprint().contains(at))
+    }
+
+    fn is_passed_over_at(&self, at: Vec2) -> bool {
+        self.passed_over.iter().any(|passed| (passed - at).norm() < SAME_PLACE_M)
     }
 
     /// Takes in what a frame shows to be empty; true when it changes what stands where.

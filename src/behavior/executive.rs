@@ -18,6 +18,9 @@ use crate::robot::MobileBase;
 
 /// Half of the turn in which the robot looks for its target.
 pub(super) const SWEEP_RAD: f64 = 2.0 * PI / 3.0;
+/// Places that can be passed over in one errand: nobody says "the other one" more often.
+pub const MOST_PASSED_OVER: usize = 4;
+
 /// How the executive goes about it.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
@@ -37,6 +40,8 @@ pub struct Options {
     pub describe: bool,
     /// Seconds of robot time a trial may take.
     pub time_limit_s: f64,
+    /// Where a person said it is not: what stands or was seen there is passed over. Metres.
+    pub passed_over: [Option<Vec2>; MOST_PASSED_OVER],
 }
 
 impl Default for Options {
@@ -50,6 +55,7 @@ impl Default for Options {
             no_localization: false,
             describe: false,
             time_limit_s: 900.0,
+            passed_over: [None; MOST_PASSED_OVER],
         }
     }
 }
@@ -117,7 +123,8 @@ impl<'a> Executive<'a> {
         watcher: &'a mut dyn Watcher,
         options: Options,
     ) -> Self {
-        let pilot = Pilot::new(map, base, eyes, watcher, options.time_limit_s, options.no_localization);
+        let mut pilot = Pilot::new(map, base, eyes, watcher, options.time_limit_s, options.no_localization);
+        pilot.beliefs.passed_over = options.passed_over.into_iter().flatten().collect();
         let start = pilot.pose();
         Self {
             map,

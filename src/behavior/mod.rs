@@ -40,7 +40,7 @@ mod watcher;
 pub use approach::Ways;
 pub use beliefs::Beliefs;
 pub use clearances::Clearances;
-pub use executive::{Executive, Options, Report};
+pub use executive::{Executive, MOST_PASSED_OVER, Options, Report};
 pub use furniture::Furniture;
 pub use journal::Journal;
 pub use localizer::Localizer;

@@ -86,6 +86,7 @@ struct Factor {
 pub fn rank(beliefs: &Beliefs, wanted: &Wanted, place: Place, lexicon: &Lexicon) -> Vec<Ranked> {
     let mut candidates = candidates(beliefs, wanted.target.as_deref(), lexicon);
     candidates.retain(|&index| !is_ruled_out(&beliefs.furniture[index], &wanted.not, lexicon));
+    candidates.retain(|&index| !beliefs.is_passed_over(&beliefs.furniture[index]));
     let mut ranked: Vec<Ranked> = candidates
         .iter()
         .filter(|&&index| !beliefs.furniture[index].searched)

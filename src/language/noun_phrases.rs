@@ -9,6 +9,8 @@ use crate::record::Direction;
 
 /// Most words before a noun: longer runs are no noun phrase.
 const MOST_MODIFIERS: usize = 8;
+/// Most nouns in a row that are one: keeps reading linear in nonsense.
+const MOST_NOUNS: usize = 12;
 
 /// How a noun phrase begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -298,7 +300,7 @@ impl<'u> Reader<'u> {
     /// "A gaming desk", "the alphabet soup": words before the noun that belong to its name.
     fn name_start(&self, head: usize, start: usize) -> usize {
         let mut name = head;
-        while name > start && names_kind(&self.units[name - 1]) && !self.units[name].pause {
+        while name > start.max(head.saturating_sub(MOST_NOUNS)) && names_kind(&self.units[name - 1]) && !self.units[name].pause {
             name -= 1;
         }
         name
@@ -307,7 +309,7 @@ impl<'u> Reader<'u> {
     /// "Computer desk": nouns in a row are one, the last says what it is; a room before it says where.
     fn compound(&mut self, start: usize) {
         let bare = self.phrase.head == start && (start == 0 || self.units[start].pause || self.units[start - 1].stop);
-        while let Some(next) = self.next(self.phrase.head + 1) {
+        while let Some(next) = self.next(self.phrase.head + 1).filter(|_| self.phrase.head < start + MOST_NOUNS) {
             if self.goes_on_unknown(next, bare) {
                 self.phrase.head += 1;
                 self.phrase.plural = false;

@@ -60,7 +60,7 @@ fn is_grouped(number: &str) -> bool {
     let is_first = (1..=3).contains(&first.len()) && !first.starts_with('0');
     let rest: Vec<&str> = groups.collect();
     let is_group = |group: &&str| group.len() == 3 && group.bytes().all(|byte| byte.is_ascii_digit());
-    is_first && !rest.is_empty() && rest.iter().all(|group| is_group(&group))
+    is_first && !rest.is_empty() && rest.iter().all(is_group)
 }
 
 /// The value of number words said in a row: "forty five", "one hundred eighty".

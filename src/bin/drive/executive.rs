@@ -42,6 +42,7 @@ impl Arguments {
             no_localization: self.no_localization,
             describe: true,
             time_limit_s: self.time_limit,
+            ..Options::default()
         }
     }
 }

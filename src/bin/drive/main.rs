@@ -4,6 +4,7 @@ mod executive;
 mod outputs;
 mod replay;
 mod robot;
+mod talk;
 
 use std::process::ExitCode;
 
@@ -48,6 +49,8 @@ struct Arguments {
     #[command(flatten)]
     executive: executive::Arguments,
     #[command(flatten)]
+    talk: talk::Arguments,
+    #[command(flatten)]
     robot: robot::Arguments,
     #[command(flatten)]
     outputs: outputs::Arguments,
@@ -66,7 +69,7 @@ impl Program for Arguments {
         schemars::schema_for!(Trial)
     }
     fn reads_standard_input(&self) -> bool {
-        !self.list && !self.robot.serves() && self.log.from.is_none() && self.common.files.is_empty()
+        !self.list && !self.talk.talk && !self.robot.serves() && self.log.from.is_none() && self.common.files.is_empty()
     }
     fn run(self) -> Result<Exit, Failure> {
         let reporter = Reporter::new(Self::NAME, &self.common);
@@ -106,6 +109,9 @@ impl Arguments {
             let settings = self.settings(NoiseLevel::Off);
             return self.robot.run_served(&self.home.load()?, &reporter, settings, self.common.force);
         }
+        if self.talk.talk {
+            return self.talk(&reporter);
+        }
         if self.robot.is_real() {
             return self.drive_real(reporter);
         }
@@ -123,6 +129,24 @@ impl Arguments {
         let exit = cli::run_filter_on(Self::NAME, &common, lines.as_mut(), Intake::Records, &driver)?;
         let written = outputs::write_page(page, stories, &driver.home.map, &driver.home.pieces(), common.force);
         Ok(ended(exit, written, &common))
+    }
+
+    /// Talks with a person, errand after errand.
+    fn talk(self, reporter: &Reporter) -> Result<Exit, Failure> {
+        if self.robot.is_real() {
+            return Err(Failure::Usage("--talk drives the simulated robot only; leave --robot away".to_string()));
+        }
+        let home = self.home.load()?;
+        let map = home.map.clone();
+        let settings = self.settings(NoiseLevel::Default);
+        let recorded = self.trial_options().line();
+        let page = self.outputs.page(self.common.force)?;
+        let outputs = self.outputs.outputs(&self.common, recorded, reporter)?;
+        let stories = outputs.stories.clone();
+        let driver = Driver { home, settings, outputs, search_anyway: self.search_anyway };
+        let (exit, session) = self.talk.run(driver, &self.common, reporter)?;
+        let written = outputs::write_page(page, stories, &map, &session.home().pieces(), self.common.force);
+        Ok(ended(exit, written, &self.common))
     }
 
     /// How the simulated robot is, with that noise where none is given.
