@@ -37,6 +37,16 @@ fn what_was_found_once_is_gone_to_without_a_question_the_next_time() {
 }
 
 #[test]
+fn it_comes_back_to_where_the_person_is_from_another_room() {
+    let records = talk(&["go to the table in the bedroom", "come back", "where are you?"], &[]).records();
+    assert_eq!(records[1]["answer"], "Here I am.", "{}", records[1]);
+    let (began, ended) = (&records[0]["trial"]["path"][0], &records[1]["trial"]["final_pose"]);
+    let off = |axis: &str, at: usize| began[at].as_f64().zip(ended[axis].as_f64()).map(|(a, b)| (a - b).abs());
+    assert!(off("x", 1).is_some_and(|m| m < 0.4) && off("y", 2).is_some_and(|m| m < 0.4), "{began} {ended}");
+    assert_eq!(records[2]["answer"], "I am in the hallway.");
+}
+
+#[test]
 fn it_says_why() {
     let said = talk(&["find my mug in the bedroom", "why?"], &["--format", "text"]).out;
     let lines: Vec<&str> = said.lines().collect();

@@ -42,6 +42,8 @@ pub struct Options {
     pub time_limit_s: f64,
     /// Where a person said it is not: what stands or was seen there is passed over. Metres.
     pub passed_over: [Option<Vec2>; MOST_PASSED_OVER],
+    /// Where the speaker is, in the map; where the robot starts when nothing tells.
+    pub speaker: Option<Pose>,
 }
 
 impl Default for Options {
@@ -56,6 +58,7 @@ impl Default for Options {
             describe: false,
             time_limit_s: 900.0,
             passed_over: [None; MOST_PASSED_OVER],
+            speaker: None,
         }
     }
 }
@@ -91,7 +94,7 @@ pub struct Executive<'a> {
     pub(super) found_at: Option<Vec2>,
     description: Option<String>,
     pub(super) delivered: Vec<Delivery>,
-    /// Where the robot started: where the speaker is.
+    /// Where the speaker is.
     pub(super) start: Pose,
 }
 
@@ -125,7 +128,7 @@ impl<'a> Executive<'a> {
     ) -> Self {
         let mut pilot = Pilot::new(map, base, eyes, watcher, options.time_limit_s, options.no_localization);
         pilot.beliefs.passed_over = options.passed_over.into_iter().flatten().collect();
-        let start = pilot.pose();
+        let start = options.speaker.unwrap_or(pilot.pose());
         Self {
             map,
             pilot,

@@ -11,7 +11,7 @@ use crate::language::tokens::tokenize;
 use crate::language::{Chunker, Role, units};
 use crate::map::RoomMap;
 use crate::planning::Planner;
-use crate::record::{Chunk, Grounding, Outcome, Record, Stage, StageError, Token, Trial};
+use crate::record::{Action, Chunk, Destination, Grounding, Outcome, Plan, Record, Stage, StageError, Token, Trial};
 use crate::recording::{Stories, Told};
 use crate::simulation::{Driver, Home};
 
@@ -62,6 +62,7 @@ impl Session {
         let map = driver.home.map.clone();
         let stories: Arc<Stories> = Arc::default();
         let kept = driver.outputs.stories.replace(stories.clone());
+        driver.settings.options.speaker = Some(map.start);
         let planner = Planner::new(map.clone());
         Self { driver, map, planner, grounder, memory, asked: None, last: None, passed_over: Vec::new(), stories, kept }
     }
@@ -100,9 +101,7 @@ impl Session {
             Utterance::OtherOne => self.the_other_one(asked, record),
             Utterance::ComeBack => {
                 self.passed_over.clear();
-                let text = "go home".to_string();
-                let grounding = self.understood(&text)?;
-                self.drive(Errand { text, grounding }, record)
+                self.come_back(text, record)
             }
             _ => match asked {
                 Some(errand) if !begins_an_errand(text, &self.grounder) => self.answered(errand, text, record),
@@ -188,10 +187,25 @@ impl Session {
         self.drive(last.errand, record)
     }
 
+    /// To where the person is.
+    fn come_back(&mut self, text: &str, record: &mut Record) -> Result<Reply, StageError> {
+        let to = Destination { recipient: Some("speaker".to_string()), ..Destination::default() };
+        let actions = vec![Action::Deliver { objects: Vec::new(), to: to.clone() }];
+        let plan = Plan { map: self.map.name.clone(), actions, ..Plan::default() };
+        let grounding = Grounding { destination: Some(to), ..Grounding::default() };
+        let reply = self.follow(&plan, Errand { text: text.to_string(), grounding }, record)?;
+        let is_there = self.last.as_ref().is_some_and(|last| last.trial.outcome == Outcome::Arrived);
+        Ok(if is_there { said("Here I am.") } else { reply })
+    }
+
     fn drive(&mut self, errand: Errand, record: &mut Record) -> Result<Reply, StageError> {
         let plan = self.planner.plan(&errand.grounding);
+        self.follow(&plan, errand, record)
+    }
+
+    fn follow(&mut self, plan: &Plan, errand: Errand, record: &mut Record) -> Result<Reply, StageError> {
         record.put(&errand.grounding);
-        record.put(&plan);
+        record.put(plan);
         if plan.actions.is_empty() {
             return Ok(Reply::Answer(format!("I cannot do that: {}.", plan.problems.join("; "))));
         }

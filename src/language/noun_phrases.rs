@@ -300,7 +300,10 @@ impl<'u> Reader<'u> {
     /// "A gaming desk", "the alphabet soup": words before the noun that belong to its name.
     fn name_start(&self, head: usize, start: usize) -> usize {
         let mut name = head;
-        while name > start.max(head.saturating_sub(MOST_NOUNS)) && names_kind(&self.units[name - 1]) && !self.units[name].pause {
+        while name > start.max(head.saturating_sub(MOST_NOUNS))
+            && names_kind(&self.units[name - 1])
+            && !self.units[name].pause
+        {
             name -= 1;
         }
         name
