@@ -99,7 +99,7 @@ fn perceive_sees_in_the_log_what_the_robot_saw_and_one_room_when_fused() {
     assert_eq!((fused.len(), fused[0]["frames"].as_array().map(Vec::len)), (1, Some(seen.len())));
     let couches = fused[0]["detections"].as_array().expect("an array").iter().filter(|d| d["category"] == "couch");
     // The couch faces away from the door at (4.5, 3).
-    let near = |d: &&Value| (d["x"].as_f64().unwrap_or(0.0) - 4.5).hypot(d["y"].as_f64().unwrap_or(0.0) - 3.0) < 0.4;
+    let near = |d: &&Value| (d["x"].as_f64().unwrap_or(0.0) - 4.5).hypot(d["y"].as_f64().unwrap_or(0.0) - 3.0) < 0.5;
     assert_eq!(couches.filter(near).count(), 1, "{}", fused[0]["detections"]);
 }
 

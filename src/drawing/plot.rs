@@ -3,10 +3,13 @@
 use std::fmt::Write;
 
 use crate::escape::for_markup;
-use crate::geometry::{Pose, Vec2};
+use crate::geometry::{Pose, Vec2, angle_between};
 
 /// Pixels a metre.
 const SCALE: f64 = 56.0;
+/// Nearer to the point drawn before, a point of the way is not drawn, metres; nor a tick so near in heading, radians.
+const SAME_POINT_M: f64 = 0.03;
+const SAME_HEADING_RAD: f64 = 0.1;
 /// Pixels around the rooms.
 const MARGIN: f64 = 24.0;
 /// Pixels above them, for the sentence.
@@ -245,10 +248,15 @@ impl Canvas {
 
     /// A line, with ticks for the heading two seconds apart, a ring with its heading at the start and an arrow at the end.
     fn path(&mut self, path: &[Pose]) {
-        let points: Vec<String> =
-            path.iter().map(|pose| self.xy(pose.position())).map(|(x, y)| format!("{x},{y}")).collect();
+        // What stands or turns in place adds nothing to the line.
+        let way = moved(path.iter(), |a, b| a.distance_to(b.position()) >= SAME_POINT_M);
+        let points = way.into_iter().map(|pose| self.xy(pose.position())).map(|(x, y)| format!("{x},{y}"));
+        let points: Vec<String> = points.collect();
         self.put(format_args!(r#"<polyline class="path" points="{}"/>"#, points.join(" ")));
-        for pose in path.iter().step_by(4) {
+        let is_other_tick = |a: &Pose, b: &Pose| {
+            a.distance_to(b.position()) >= SAME_POINT_M || angle_between(a.heading, b.heading) >= SAME_HEADING_RAD
+        };
+        for pose in moved(path.iter().step_by(4), is_other_tick) {
             self.line(pose.position(), pose.position() + pose.forward() * 0.18, "tick");
         }
         if let (Some(first), Some(last)) = (path.first(), path.last()) {
@@ -305,6 +313,18 @@ fn wrapped(text: &str, per_line: usize) -> Vec<String> {
         }
     }
     lines
+}
+
+/// The poses that differ from the one kept before, with the last.
+fn moved<'p>(poses: impl Iterator<Item = &'p Pose>, differs: impl Fn(&Pose, &Pose) -> bool) -> Vec<&'p Pose> {
+    let poses: Vec<&Pose> = poses.collect();
+    let mut kept: Vec<&Pose> = Vec::new();
+    for (at, pose) in poses.iter().enumerate() {
+        if at + 1 == poses.len() || kept.last().is_none_or(|last| differs(last, pose)) {
+            kept.push(pose);
+        }
+    }
+    kept
 }
 
 #[cfg(test)]

@@ -11,6 +11,8 @@ use crate::recording::{BelievedPiece, Story, TruePiece};
 
 /// A piece that moved by less is not sent again, centimetres.
 const MOVED_CM: i64 = 5;
+/// It stands while it moves by no more, centimetres and degrees.
+const STANDS: i64 = 1;
 
 /// The home, once for all trials.
 #[derive(Serialize)]
@@ -57,12 +59,26 @@ impl ShownHome {
 impl ShownTrial {
     pub fn of(path: &[PathPoint], story: &Story) -> Self {
         Self {
-            path: path.iter().map(point).collect(),
+            path: thinned(path.iter().map(point).collect()),
             said: story.told.iter().map(|(time_s, text)| (tenths(*time_s), text.clone())).collect(),
             believed: changes(&story.believed),
             looks: story.looks.iter().map(|time_s| tenths(*time_s)).collect(),
         }
     }
+}
+
+/// Without the points at which the robot stands as it stood.
+fn thinned(path: Vec<[i64; 4]>) -> Vec<[i64; 4]> {
+    let mut kept: Vec<[i64; 4]> = Vec::new();
+    for (at, point) in path.iter().enumerate() {
+        let stands = |last: &[i64; 4]| (1..4).all(|axis| (last[axis] - point[axis]).abs() <= STANDS);
+        // The last point at which it stands is kept, so that it does not creep until it moves on.
+        let moves_on = path.get(at + 1).is_none_or(|next| (1..4).any(|axis| (next[axis] - point[axis]).abs() > STANDS));
+        if moves_on || kept.last().is_none_or(|last| !stands(last)) {
+            kept.push(*point);
+        }
+    }
+    kept
 }
 
 fn point(point: &PathPoint) -> [i64; 4] {
