@@ -2,8 +2,13 @@
 
 /// The value of a word that is a number by itself.
 pub fn value(word: &str) -> Option<f64> {
-    if word.as_bytes().first().is_some_and(u8::is_ascii_digit) {
+    let is_digit = |at: usize| word.as_bytes().get(at).is_some_and(u8::is_ascii_digit);
+    if is_digit(0) || word.starts_with('.') && is_digit(1) {
         let number = word.strip_suffix("th").or_else(|| word.strip_suffix('°')).unwrap_or(word);
+        // Nobody says "1e308".
+        if !number.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b',')) {
+            return None;
+        }
         let plain = if is_grouped(number) { number.replace(',', "") } else { number.replace(',', ".") };
         return plain.parse().ok().filter(|value: &f64| value.is_finite());
     }
@@ -98,6 +103,7 @@ mod tests {
     #[test]
     fn a_comma_before_three_digits_parts_thousands_and_any_other_is_a_decimal_mark() {
         assert_eq!([value("1,000"), value("12,500,000")], [Some(1000.0), Some(12_500_000.0)]);
+        assert_eq!([value(".5"), value("1e308"), value("15th")], [Some(0.5), None, Some(15.0)]);
         assert_eq!([value("0,125"), value("2,50"), value("1.000")], [Some(0.125), Some(2.5), Some(1.0)]);
     }
 }

@@ -32,6 +32,11 @@ pub fn tokenize(text: &str) -> Vec<Word<'_>> {
         if start.is_some() && is_decimal_mark(bytes, at) {
             continue;
         }
+        // ".5 meters".
+        if start.is_none() && c == '.' && bytes.get(at + 1).is_some_and(u8::is_ascii_digit) {
+            start = Some(at);
+            continue;
+        }
         if let Some(from) = start.take() {
             push_split(text, from, at, &mut words);
         }
@@ -50,9 +55,9 @@ fn is_inner(c: char) -> bool {
     c.is_alphanumeric() || matches!(c, '\'' | '’' | '-' | '_' | '\u{2010}' | '\u{2011}') || is_invisible(c)
 }
 
-/// Characters that a typesetter adds and nobody reads.
+/// Characters that a typesetter adds and nobody reads: soft hyphens, joiners, and what turns the direction of writing.
 fn is_invisible(c: char) -> bool {
-    matches!(c, '\u{ad}' | '\u{200b}'..='\u{200d}' | '\u{2060}' | '\u{feff}')
+    matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
 }
 
 /// "Table--behind the couch": hyphens side by side are a dash, and so is one at a word's edge.
@@ -147,6 +152,13 @@ mod tests {
     #[test]
     fn hyphens_hold_words_together_and_punctuation_stands_alone() {
         assert_eq!(texts("multi-sided (wood) table."), ["multi-sided", "(", "wood", ")", "table", "."]);
+    }
+
+    #[test]
+    fn a_number_may_begin_with_its_mark_and_what_turns_the_writing_is_not_read() {
+        assert_eq!(texts("go .5 meters. 5"), ["go", ".5", "meters", ".", "5"]);
+        let turned = tokenize("the ta\u{202e}ble");
+        assert_eq!(turned[1].lower, "table");
     }
 
     #[test]
