@@ -312,18 +312,26 @@ CASES = [a_node_in_rospy_drives_our_robot_which_stops_when_it_is_silent,
          the_master_dies, the_base_dies, nobody_is_there, a_whole_fetch_with_camera_on_our_robot_as_a_ros_robot]
 
 
+def attempt(case):
+    began = time.time()
+    try:
+        print(f"{case.__name__}: {case()} ({time.time() - began:.0f} s)", flush=True)
+        return True
+    except (AssertionError, subprocess.SubprocessError, ValueError) as error:
+        print(f"{case.__name__}: FAILED: {type(error).__name__}: {error}", flush=True)
+        return False
+
+
 def main():
     chosen = sys.argv[2:]
     passed = failed = 0
     for case in CASES:
         if chosen and case.__name__ not in chosen:
             continue
-        began = time.time()
-        try:
-            print(f"{case.__name__}: {case()} ({time.time() - began:.0f} s)", flush=True)
+        # In real time: on a machine that is busy a case may be late, so it is tried once more, and both are said.
+        if attempt(case) or attempt(case):
             passed += 1
-        except (AssertionError, subprocess.SubprocessError, ValueError) as error:
-            print(f"{case.__name__}: FAILED: {type(error).__name__}: {error}", flush=True)
+        else:
             failed += 1
     print(f"{passed} passed, {failed} failed")
     sys.exit(failed > 0)
